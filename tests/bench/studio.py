@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""What watching costs: cycles per second with three pages as a ratio to none, and the latency of a slow page.
+"""What watching costs: cycles per second with three pages as a ratio to none, and to three pages of another studio, which take the
+machine's time, but not that of the engine; and the latency of a slow page.
 
-usage: studio.py FORAGE [ROOT]    prints three lines; the ratio alternates both cases in one run
+usage: studio.py FORAGE [ROOT]    prints the ratios, whose cases alternate in one run
 """
 import pathlib
 import statistics
@@ -54,30 +55,34 @@ def rate(studio, page, seconds=2.0):
 def main():
     forage = sys.argv[1]
     root = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else pathlib.Path(__file__).parents[2])
-    with Studio(forage, str(root / 'systems/dac_foraging.iqr'), '--world', str(root / 'systems/worlds/basic_arena.world')) as studio:
+    files = str(root / 'systems/dac_foraging.iqr'), '--world', str(root / 'systems/worlds/basic_arena.world')
+    with Studio(forage, *files) as studio, Studio(forage, *files) as another:
+        Page(another).do('run')
         control = Page(studio)
         control.do('pause')
         groups = [g['path'] for p in control.last('system')['processes'] for g in p['groups']][:20]
         control.do('speed', mode='free')
         control.do('run')
         rate(studio, control, 1)
-        ratios = []
-        for i in range(24):
+        to_none, to_another = [], []
+        cases = [None, another, studio]
+        for i in range(18):
             # Which case comes first changes, as the speed of a machine drifts.
-            pair = {}
-            for watched in ((False, True), (True, False))[i % 2]:
-                watchers = [Watcher(studio, groups) for _ in range(3 * watched)]
+            rates = {}
+            for case in cases[i % 3:] + cases[:i % 3]:
+                watchers = [Watcher(case, groups) for _ in range(3)] if case else []
                 for w in watchers:
                     w.start()
                 time.sleep(0.3)
-                pair[watched] = rate(studio, control, 1)
+                rates[case] = rate(studio, control, 1)[0]
                 for w in watchers:
                     w.over = True
                     w.join()
-            ratios.append([w / a for w, a in zip(pair[True], pair[False])])
-        for what, values in zip(('cycles per second', 'cycles per second of the engine\'s thread'), zip(*ratios)):
+            to_none.append(rates[studio] / rates[None])
+            to_another.append(rates[studio] / rates[another])
+        for what, values in (('none', to_none), ('three pages of another studio', to_another)):
             low, middle, high = statistics.quantiles(values, n=4)
-            print(f'{what} with three pages / with none: {middle:.3f} (half of {len(values)} pairs from {low:.3f} to {high:.3f})')
+            print(f'cycles per second with three pages / with {what}: {middle:.3f} (half of {len(values)} rounds from {low:.3f} to {high:.3f})')
         # The age of what a page that needs 80 ms per frame has just drawn, in real time.
         control.do('speed', mode='real')
         slow = Page(studio)
