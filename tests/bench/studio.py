@@ -38,18 +38,11 @@ class Watcher(threading.Thread):
         self.page.close()
 
 
-def busy(studio):
-    """Processor time of the busiest thread of the studio, which is the engine's, s."""
-    tasks = pathlib.Path(f'/proc/{studio.child.pid}/task')
-    return max(int((t / 'schedstat').read_text().split()[0]) for t in tasks.iterdir()) / 1e9
-
-
-def rate(studio, page, seconds=2.0):
-    """Cycles per second of the clock, and per second of the engine's thread: what others on the machine do counts only in the first."""
-    first, begun, worked = page.do('history')['now'], time.monotonic(), busy(studio)
+def rate(page, seconds=1.0):
+    """Cycles per second."""
+    first, begun = page.do('history')['now'], time.monotonic()
     time.sleep(seconds)
-    cycles = page.do('history')['now'] - first
-    return cycles / (time.monotonic() - begun), cycles / (busy(studio) - worked)
+    return (page.do('history')['now'] - first) / (time.monotonic() - begun)
 
 
 def main():
@@ -63,7 +56,7 @@ def main():
         groups = [g['path'] for p in control.last('system')['processes'] for g in p['groups']][:20]
         control.do('speed', mode='free')
         control.do('run')
-        rate(studio, control, 1)
+        rate(control)
         to_none, to_another = [], []
         cases = [None, another, studio]
         for i in range(18):
@@ -74,7 +67,7 @@ def main():
                 for w in watchers:
                     w.start()
                 time.sleep(0.3)
-                rates[case] = rate(studio, control, 1)[0]
+                rates[case] = rate(control)
                 for w in watchers:
                     w.over = True
                     w.join()

@@ -38,7 +38,7 @@ export function canMove(p: IDockviewPanel, side: Side): boolean {
   const { width, height } = p.group.element.getBoundingClientRect();
   return side === 'left' || side === 'right' ? height < dock.api!.height - 4 : width < dock.api!.width - 4;
 }
-/** Splits a panel off its stack. One that stands alone goes past its neighbour, or without one to the edge of all; a floating window goes a step. */
+/** Splits a panel off its stack. One that stands alone goes past its neighbour, or without one to the edge of the window; a floating window goes a step. */
 export function move(p: IDockviewPanel, side: Side): void {
   p.api.exitMaximized(); // the neighbours are hidden
   if (floats(p)) return shift(p, side);
