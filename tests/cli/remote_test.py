@@ -8,41 +8,59 @@ import json
 import re
 import socket
 import subprocess
+import threading
 import time
 import unittest
 
 from cli_test import FORAGE, PROJECT, Cli
 
 SYSTEM = PROJECT / "systems/cookbook/noise.iqr"
+LONGEST = 60  # s: a run that says nothing for so long is ended, and the test fails
 
 
 class Remote(Cli):
+    @contextlib.contextmanager
+    def lasting(self, process):
+        """Ends a process when the block ends, or after LONGEST: what waits for its next line then reads an empty one."""
+        limit = threading.Timer(LONGEST, process.kill)
+        limit.start()
+        try:
+            yield process
+        finally:
+            limit.cancel()
+            process.kill()
+            process.communicate()
+
     @contextlib.contextmanager
     def running(self, *arguments, cycles=10**9):
         """A run that obeys, and a function that sends it a command and returns the lines that it prints about it."""
         process = subprocess.Popen([FORAGE, "run", SYSTEM, "--cycles", str(cycles), "-o", "out", "--remote", "0", *map(str, arguments)],
                                    cwd=self.here, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        try:
+        with self.lasting(process), socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
             port = int(re.fullmatch(r"remote: commands are received at 127\.0\.0\.1:(\d+)\n", process.stderr.readline())[1])
-            with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
-                def send(text):
-                    sender.sendto(text.encode(), ("127.0.0.1", port))
-                    return process.stderr.readline()
-                yield process, send
-        finally:
-            process.kill()
-            process.communicate()
+
+            def send(text):
+                sender.sendto(text.encode(), ("127.0.0.1", port))
+                return process.stderr.readline()
+
+            yield process, send
+
+    def stopped_after_some_cycles(self, send):
+        """Starts and stops a run until it has made cycles; which cycle comes next. Commands that come together act between the
+        same two cycles, and at most 100 a second are read: the run needs time in between."""
+        cycle = 0
+        while cycle == 0:
+            self.assertRegex(send("cmd:start"), "cmd:start$")
+            time.sleep(0.05)
+            cycle = int(re.fullmatch(r"remote: cycle (\d+): cmd:stop\n", send("cmd:stop"))[1])
+        return cycle
 
     def record(self):
         return json.loads((self.here / "out/run.json").read_text())
 
     def test_a_run_is_stopped_changed_drawn_started_and_ended(self):
         with self.running("--record", "*") as (process, send):
-            cycle = 0
-            while cycle == 0:  # there is nothing to draw before the first cycle
-                self.assertRegex(send("cmd:start"), "cmd:start$")
-                time.sleep(0.02)
-                cycle = int(re.fullmatch(r"remote: cycle (\d+): cmd:stop;\n", send("cmd:stop;"))[1])
+            cycle = self.stopped_after_some_cycles(send)  # there is nothing to draw before the first cycle
             group = next(g for g in re.findall(r'<Group id="([^"]+)" name="([^"]+)"', SYSTEM.read_text()))
             # Nothing runs while it is stopped, so all of these are in the same cycle.
             self.assertRegex(send(f"cmd:param;itemType:GROUP;itemName:{group[1]};paramName:probability;value:0.125"),
@@ -117,14 +135,11 @@ class Remote(Cli):
 
     def test_a_stopped_run_stays_stopped_when_it_is_resumed(self):
         with self.running("--checkpoint-every", 10**8) as (process, send):
-            cycle = 0
-            while cycle == 0:
-                send("cmd:start")
-                cycle = int(re.fullmatch(r"remote: cycle (\d+): cmd:stop\n", send("cmd:stop"))[1])
+            cycle = self.stopped_after_some_cycles(send)
             process.terminate()
             process.communicate(timeout=60)
         process = subprocess.Popen([FORAGE, "resume", "out"], cwd=self.here, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        try:
+        with self.lasting(process):
             self.assertEqual(process.stderr.readline(), f"continuing from cycle {cycle}\n")
             port = int(re.fullmatch(r"remote: commands are received at 127\.0\.0\.1:(\d+)\n", process.stderr.readline())[1])
             self.assertEqual(process.stderr.readline(), "remote: the run is stopped; cmd:start goes on with it\n")
@@ -133,9 +148,6 @@ class Remote(Cli):
                 sender.sendto(b"cmd:quit", ("127.0.0.1", port))
                 self.assertEqual(process.stderr.readline(), f"remote: cycle {cycle}: cmd:quit\n")
             process.communicate(timeout=60)
-        finally:
-            process.kill()
-            process.communicate()
 
     def test_mistakes(self):
         for option, text in (("--remote", "65536"), ("--remote", "somewhere"), ("--broadcast", "0"), ("--broadcast", ":9")):
