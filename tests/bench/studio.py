@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""What watching costs: cycles per second with three pages as a ratio to none, and to three pages of another studio, which take the
-machine's time, but not that of the engine; and the latency of a slow page.
+"""What watching costs: cycles per second with three pages as a ratio to none, and the latency of a slow page.
 
-usage: studio.py FORAGE [ROOT]    prints the ratios, whose cases alternate in one run
+usage: studio.py FORAGE [ROUNDS]    by default 100 rounds, in each of which the same cycles run with pages and without, 5 minutes
+
+The speed of a shared machine changes by a tenth from one second to the next: the interval of the ratio says what the rounds show.
 """
 import pathlib
 import statistics
@@ -17,11 +18,11 @@ SOURCES = ['world:poses', 'world:rays', 'world:camera']
 
 
 class Watcher(threading.Thread):
-    """A page that takes everything, and acknowledges after `delay` seconds."""
+    """A page that takes everything and acknowledges it."""
 
-    def __init__(self, studio, groups, delay=0.0):
+    def __init__(self, studio, groups):
         super().__init__(daemon=True)
-        self.page, self.delay, self.latencies, self.over = Page(studio), delay, [], False
+        self.page, self.over = Page(studio), False
         for source in [*SOURCES, *groups]:
             self.page.do('subscribe', source=source)
         self.page.do('subscribe', source=f'mean({groups[0]})', every=100, **{'class': 'append'})
@@ -30,52 +31,57 @@ class Watcher(threading.Thread):
         while not self.over:
             self.page.receive(0.2)
             for frame in self.page.frames:
-                time.sleep(self.delay)
-                self.latencies.append(time.monotonic() - frame.at)
                 self.page.acknowledge(frame.seq)
             self.page.frames.clear()
             self.page.messages.clear()
         self.page.close()
 
 
-def rate(page, seconds=1.0):
-    """Cycles per second."""
-    first, begun = page.do('history')['now'], time.monotonic()
-    time.sleep(seconds)
-    return (page.do('history')['now'] - first) / (time.monotonic() - begun)
+def rate(control, start, watchers):
+    """Cycles per second of the second after `start`, a cycle of the past."""
+    control.do('pause')
+    control.do('seek', cycle=start)
+    for w in watchers:
+        w.start()
+    control.do('run')
+    time.sleep(0.2)
+    first, begun = control.do('history')['now'], time.monotonic()
+    time.sleep(1)
+    cycles, seconds = control.do('history')['now'] - first, time.monotonic() - begun
+    for w in watchers:
+        w.over = True
+    for w in watchers:
+        w.join()
+    return cycles / seconds
+
+
+def interval_of_median(values):
+    """Where the median lies with 95 % probability, from the ranks of the binomial distribution."""
+    values, half = sorted(values), 0.98 * len(values) ** 0.5
+    return values[max(0, round(len(values) / 2 - half))], values[min(len(values) - 1, round(len(values) / 2 + half))]
 
 
 def main():
     forage = sys.argv[1]
-    root = pathlib.Path(sys.argv[2] if len(sys.argv) > 2 else pathlib.Path(__file__).parents[2])
-    files = str(root / 'systems/dac_foraging.iqr'), '--world', str(root / 'systems/worlds/basic_arena.world')
-    with Studio(forage, *files) as studio, Studio(forage, *files) as another:
-        Page(another).do('run')
+    rounds = int(sys.argv[2]) if len(sys.argv) > 2 else 100
+    systems = pathlib.Path(__file__).parents[2] / 'systems'
+    with Studio(forage, str(systems / 'dac_foraging.iqr'), '--world', str(systems / 'worlds/basic_arena.world')) as studio:
         control = Page(studio)
         control.do('pause')
         groups = [g['path'] for p in control.last('system')['processes'] for g in p['groups']][:20]
         control.do('speed', mode='free')
         control.do('run')
-        rate(control)
-        to_none, to_another = [], []
-        cases = [None, another, studio]
-        for i in range(18):
-            # Which case comes first changes, as the speed of a machine drifts.
+        time.sleep(3)
+        start = control.do('history')['checkpoints'][-2]
+        ratios = []
+        for i in range(rounds):
             rates = {}
-            for case in cases[i % 3:] + cases[:i % 3]:
-                watchers = [Watcher(case, groups) for _ in range(3)] if case else []
-                for w in watchers:
-                    w.start()
-                time.sleep(0.3)
-                rates[case] = rate(control)
-                for w in watchers:
-                    w.over = True
-                    w.join()
-            to_none.append(rates[studio] / rates[None])
-            to_another.append(rates[studio] / rates[another])
-        for what, values in (('none', to_none), ('three pages of another studio', to_another)):
-            low, middle, high = statistics.quantiles(values, n=4)
-            print(f'cycles per second with three pages / with {what}: {middle:.3f} (half of {len(values)} rounds from {low:.3f} to {high:.3f})')
+            for pages in ((0, 3), (3, 0))[i % 2]:
+                rates[pages] = rate(control, start, [Watcher(studio, groups) for _ in range(pages)])
+            ratios.append(rates[3] / rates[0])
+        low, high = interval_of_median(ratios)
+        print(f'cycles per second with three pages / with none: {statistics.median(ratios):.3f} '
+              f'(95 % interval of the median of {rounds} rounds: {low:.3f} to {high:.3f})')
         # The age of what a page that needs 80 ms per frame has just drawn, in real time.
         control.do('speed', mode='real')
         slow = Page(studio)

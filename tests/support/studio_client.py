@@ -1,5 +1,6 @@
 """A small client of the studio: HTTP and WebSocket with the standard library only, for tests and benchmarks."""
 import base64
+import functools
 import json
 import os
 import re
@@ -144,15 +145,23 @@ class Page:
 
 
 class Frame:
+    """Numbers of a page's streams. They are read when they are asked for: to acknowledge a frame alone costs little."""
+
     def __init__(self, data, at):
         assert data[:4] == b'FRG1'
-        version, count, self.seq, self.epoch, self.cycle, self.seconds = struct.unpack_from('<HHIIQd', data, 4)
+        version, self.count, self.seq, self.epoch, self.cycle, self.seconds = struct.unpack_from('<HHIIQd', data, 4)
         assert version == 1
-        self.at, self.streams = at, {}
-        for i in range(count):
-            stream, rows, columns, kind, flags, _, low, high, offset, size = struct.unpack_from('<IIIBBHffII', data, 32 + 32 * i)
-            assert offset % 8 == 0 and offset + size <= len(data)
+        self.data, self.at = data, at
+
+    @functools.cached_property
+    def streams(self):
+        """For each number of a stream: rows, columns, flags, lowest, highest, numbers."""
+        out = {}
+        for i in range(self.count):
+            stream, rows, columns, kind, flags, _, low, high, offset, size = struct.unpack_from('<IIIBBHffII', self.data, 32 + 32 * i)
+            assert offset % 8 == 0 and offset + size <= len(self.data)
             letter, width = (('f', 4), ('d', 8), ('B', 1))[kind]
-            numbers = struct.unpack_from(f'<{size // width}{letter}', data, offset)
+            numbers = struct.unpack_from(f'<{size // width}{letter}', self.data, offset)
             assert len(numbers) == rows * columns
-            self.streams[stream] = (rows, columns, flags, low, high, numbers)
+            out[stream] = (rows, columns, flags, low, high, numbers)
+        return out

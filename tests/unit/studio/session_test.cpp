@@ -127,16 +127,24 @@ TEST_CASE("a page that leaves gets nothing more") {
 TEST_CASE("the smallest and largest number of several cycles are those of every cycle") {
     Fixture f;
     SourcePool pool;
-    auto source = [&] { return pool.find(f.session.run(), nullptr, "Bug/Light", Delivery::append); };
-    Stream every(source(), "Bug/Light", Delivery::append, 1),
-        tenth(source(), "Bug/Light", Delivery::append, 10);
-    for (std::uint64_t cycle = 0; cycle < 105; ++cycle) {
-        f.session.run().step();
-        every.after_cycle(cycle, cycle), tenth.after_cycle(cycle, cycle);
-    }
+    const auto stream = [&](std::uint64_t of) {
+        return pool.stream(f.session.run(), nullptr, "Bug/Light", Delivery::append, of);
+    };
+    Stream every = stream(1), tenth = stream(10), other = stream(10);
+    const auto run_to = [&](std::uint64_t& cycle, std::uint64_t end) {
+        for (; cycle < end; ++cycle) f.session.run().step(), pool.after_cycle(cycle, cycle);
+    };
+    std::uint64_t cycle = 0;
+    run_to(cycle, 35);
+    CHECK(other.take(34).rows == 3);
+    Stream late = stream(10);
+    run_to(cycle, 105);
     const Chunk all = every.take(105), pairs = tenth.take(105);
     REQUIRE(all.rows == 105);
     REQUIRE(pairs.rows == 10);
+    // Pages that fetch at other times, or began later, share the rows.
+    CHECK(other.take(105).rows == 7);
+    CHECK(late.take(105).rows == 7);
     CHECK(pairs.pairs);
     CHECK(pairs.columns == 1 + 2 * (all.columns - 1));
     const auto numbers = [](const Chunk& c) {

@@ -5,7 +5,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "tools/studio/server/stream.h"
 
@@ -34,9 +33,6 @@ class Client {
     }
     std::uint32_t in_flight() const { return sent_ - acknowledged_; }
 
-    void after_cycle(std::uint64_t cycle, std::uint64_t version) {
-        for (Stream* stream : every_cycle_) stream->after_cycle(cycle, version);
-    }
     void clear() {
         for (auto& [number, stream] : streams_) stream.clear();
     }
@@ -45,10 +41,7 @@ class Client {
     std::optional<std::string> frame(Run& run, std::uint64_t version, std::uint32_t epoch);
 
   private:
-    void list();
-
     std::map<std::uint32_t, Stream> streams_;
-    std::vector<Stream*> every_cycle_;  ///< those of `streams_` that are not of the latest numbers only
     std::uint32_t next_ = 1, sent_ = 0, acknowledged_ = 0;
     std::optional<std::uint64_t> version_;  ///< of the last frame
 };

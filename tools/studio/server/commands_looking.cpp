@@ -23,9 +23,8 @@ json Commands::subscribe() {
     if (wanted != "latest" && wanted != "append")
         throw InputError(fmt::format("'{}' is not a class of streams", wanted), "latest or append");
     const Delivery delivery = wanted == "append" ? Delivery::append : Delivery::latest;
-    Stream stream(s.sources_.find(run(), beside(), text, delivery), text, delivery,
-                  whole(c, "every", 1, 1, 1'000'000'000));
-    const auto number = it->second.subscribe(std::move(stream));
+    const auto every = whole(c, "every", 1, 1, 1'000'000'000);
+    const auto number = it->second.subscribe(s.sources_.stream(run(), beside(), text, delivery, every));
     const auto& kept = it->second.stream(number);
     return {{"stream", number},
             {"rows", kept.source().rows()},

@@ -272,7 +272,7 @@ void Session::cycle() {
     history_.after_cycle(*run_);
     if (reference_) step_reference();
     const std::uint64_t done = run_->cycle() - 1;
-    for (auto& [id, client] : clients_) client.after_cycle(done, version_);
+    sources_.after_cycle(done, version_);
     if (!sampler_) return;
     sampler_->recorder->record(run_->simulation());
     if (done % sampler_->every == 0) ++sampler_->rows;

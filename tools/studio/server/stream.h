@@ -11,16 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "core/observe/observer.h"
-#include "core/run/run.h"
+#include "tools/studio/server/stream_source.h"
 
 namespace forage::studio {
-
-/// The types of numbers in a frame, as docs/design/studio-protocol.md numbers them.
-enum class Type : std::uint8_t { float32, float64, uint8 };
-
-/// Whether a page gets the newest numbers only, or every cycle.
-enum class Delivery { latest, append };
 
 /// What a stream puts into a frame.
 struct Chunk {
@@ -31,24 +24,6 @@ struct Chunk {
     float lowest = 0, highest = 0;
     std::string bytes;
 };
-
-/// Where the numbers of a stream come from.
-class StreamSource {
-  public:
-    virtual ~StreamSource() = default;
-    virtual std::uint32_t rows() const = 0;
-    virtual std::uint32_t columns() const = 0;
-    virtual std::string label() const = 0;
-    virtual Type type() const { return Type::float32; }
-    /// Reads rows() * columns() numbers as they are now.
-    virtual void read(Run& run, std::span<double> out) const = 0;
-    /// Adds to `demand` what is read.
-    virtual void declare(engine::Demand&) const {}
-};
-
-/// The source that a page names: an expression of sources, or "world:poses", "world:rays:ROBOT",
-/// "world:camera:ROBOT", "world:trail:ROBOT". Throws InputError.
-std::unique_ptr<StreamSource> find_stream_source(Run& run, std::string_view text, Delivery delivery);
 
 /// A source that all its streams share: it is read, drawn and packed once, however many pages watch it. A
 /// version is a number that grows with each change of the run.
@@ -72,48 +47,82 @@ class SharedSource {
     std::optional<std::uint64_t> read_, packed_;  ///< versions
 };
 
-/// The sources of a run, and of another one that goes beside it, that pages watch.
-class SourcePool {
+/// The newest rows of a source, which all its streams with the same decimation share: one row for each cycle,
+/// or for `every` of them with the smallest and largest numbers in between. Rows are counted from 0; the
+/// oldest are dropped when there are too many.
+class Rows {
   public:
-    static constexpr std::string_view beside = "reference:";
-    /// The source that a page names, as find_stream_source() finds it; after "reference:" one of the run
-    /// beside, which may be null. Throws InputError.
-    std::shared_ptr<SharedSource> find(Run& run, Run* reference, const std::string& text, Delivery delivery);
-    /// Forgets all: the run is replaced by another one.
-    void clear() { sources_.clear(); }
+    Rows(std::shared_ptr<SharedSource> source, std::uint64_t every);
+    bool are(const SharedSource& source, std::uint64_t every) const {
+        return source_.get() == &source && every_ == every;
+    }
 
-  private:
-    std::map<std::pair<std::string, Delivery>, std::weak_ptr<SharedSource>> sources_;
-};
+    /// The numbers of a row: the first cycle, and one number or two for each cell.
+    std::size_t columns() const { return columns_; }
+    std::uint64_t begin() const { return begin_; }
+    std::uint64_t end() const { return begin_ + numbers_.size() / columns_; }
+    /// The rows from number `row` on, which is in [begin(), end()].
+    std::span<const double> from(std::uint64_t row) const;
 
-/// A source with a delivery. A stream of every cycle keeps the rows that were not taken, up to a bound.
-class Stream {
-  public:
-    Stream(std::shared_ptr<SharedSource> source, std::string text, Delivery delivery, std::uint64_t every);
-
-    const std::string& text() const { return text_; }
-    Delivery delivery() const { return delivery_; }
-    std::uint64_t every() const { return every_; }
-    const StreamSource& source() const { return source_->source(); }
-
-    /// Notes the numbers of the last cycle, if the stream is one of every cycle.
     void after_cycle(std::uint64_t cycle, std::uint64_t version);
-    /// The newest numbers, or the rows since the last call. Valid until the next call.
-    const Chunk& take(std::uint64_t version);
-    /// Forgets the rows: the run begins anew or goes back.
+    /// Drops all rows: the run begins anew or goes back.
     void clear();
 
   private:
     void push(std::uint64_t cycle, std::span<const double> numbers);
 
     std::shared_ptr<SharedSource> source_;
+    std::uint64_t every_, begin_ = 0;
+    std::uint64_t first_ = 0, joined_ = 0;  ///< of the row that grows
+    std::size_t columns_, most_;
+    std::vector<double> pairs_, numbers_;
+};
+
+/// A source with a delivery, for one page. A stream of every cycle gets the rows since the last time.
+class Stream {
+  public:
+    /// `rows` is null for a stream of the newest numbers only.
+    Stream(std::string text, std::shared_ptr<SharedSource> source, std::shared_ptr<Rows> rows,
+           std::uint64_t every);
+
+    const std::string& text() const { return text_; }
+    Delivery delivery() const { return rows_ ? Delivery::append : Delivery::latest; }
+    std::uint64_t every() const { return every_; }
+    const StreamSource& source() const { return source_->source(); }
+
+    /// The newest numbers, or the rows since the last call. Valid until the next call.
+    const Chunk& take(std::uint64_t version);
+    /// Forgets the rows: the run begins anew or goes back.
+    void clear();
+
+  private:
     std::string text_;
-    Delivery delivery_;
-    std::uint64_t every_, first_ = 0, joined_ = 0;  ///< of the row that grows
-    std::size_t row_size_, most_rows_;
-    std::vector<double> low_, high_, rows_;
-    bool gap_ = false;
+    std::shared_ptr<SharedSource> source_;
+    std::shared_ptr<Rows> rows_;
+    std::uint64_t every_, next_ = 0;  ///< row
     Chunk chunk_;
+};
+
+/// What pages watch of a run, and of another one that goes beside it.
+class SourcePool {
+  public:
+    static constexpr std::string_view beside = "reference:";
+    /// The source that a page names, as find_stream_source() finds it; after "reference:" one of the run
+    /// beside, which may be null. Throws InputError.
+    std::shared_ptr<SharedSource> find(Run& run, Run* reference, const std::string& text, Delivery delivery);
+    /// A stream of that source. Throws InputError.
+    Stream stream(Run& run, Run* reference, const std::string& text, Delivery delivery, std::uint64_t every);
+    /// Notes the numbers of the last cycle for streams of every cycle.
+    void after_cycle(std::uint64_t cycle, std::uint64_t version) {
+        for (const auto& rows : rows_)
+            if (const auto watched = rows.lock()) watched->after_cycle(cycle, version);
+    }
+    /// Forgets all: the run is replaced by another one.
+    void clear() { sources_.clear(), rows_.clear(); }
+
+  private:
+    std::map<std::pair<std::string, Delivery>, std::weak_ptr<SharedSource>> sources_;
+    std::vector<std::weak_ptr<Rows>> rows_;
 };
 
 }  // namespace forage::studio
