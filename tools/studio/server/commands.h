@@ -7,6 +7,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/run/input_error.h"
+
 namespace forage::studio {
 
 class Session;
@@ -14,6 +16,18 @@ class Session;
 /// Another page has changed the run since the page that sent a command saw it.
 class Conflict : public std::runtime_error {
     using std::runtime_error::runtime_error;
+};
+
+/// A command is refused for a reason that a page acts on: "file_exists", which the same command with
+/// "overwrite" replaces, or "nothing", as there is nothing to undo or to redo.
+class Refusal : public InputError {
+  public:
+    Refusal(const char* reason, const std::string& message, const std::string& hint = {})
+        : InputError(message, hint), reason_(reason) {}
+    const char* reason() const { return reason_; }
+
+  private:
+    const char* reason_;
 };
 
 /// Executes a command and returns its result. Throws InputError, Conflict, and json::exception for members

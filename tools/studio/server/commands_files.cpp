@@ -77,7 +77,8 @@ void Commands::check_free(const std::string& path) const {
 
 void Commands::check_new(const std::string& path) const {
     if (!c.value("overwrite", false) && std::filesystem::exists(path))
-        throw InputError(fmt::format("'{}' exists", path), "overwrite it, or choose another name");
+        throw Refusal("file_exists", fmt::format("'{}' exists", path),
+                      "overwrite it, or choose another name");
 }
 
 std::vector<xml::PanelRow> Commands::panel_rows(const char* ending) {

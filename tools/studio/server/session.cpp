@@ -250,6 +250,8 @@ json Session::execute(int client, const json& command) {
         return {{"ok", true}, {"result", execute_command(*this, client, command)}};
     } catch (const Conflict& e) {
         return {{"ok", false}, {"conflict", true}, {"problems", problem(e.what())}};
+    } catch (const Refusal& e) {
+        return {{"ok", false}, {"reason", e.reason()}, {"problems", problems_of(e.diagnostics())}};
     } catch (const InputError& e) {
         return {{"ok", false}, {"problems", problems_of(e.diagnostics())}};
     } catch (const model::Refused& e) {

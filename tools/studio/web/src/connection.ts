@@ -19,12 +19,10 @@ export class CommandError extends Error {
     readonly problems: Problem[],
     /** Whether another page has changed the run since. */
     readonly conflict = false,
+    /** Why, where a page acts on it: "file_exists" is replaced by the same command with `overwrite`; "nothing" is left to undo. */
+    readonly reason?: string,
   ) {
     super(problems.map(problemText).join('\n') || 'the server refused this');
-  }
-  /** Whether a file is in the way, which the same command with `overwrite` replaces. */
-  get fileExists(): boolean {
-    return this.problems.some((p) => p.hint?.startsWith('overwrite it'));
   }
 }
 
@@ -88,7 +86,7 @@ export class Connection {
     const waiting = this.waiting.get(message.id);
     this.waiting.delete(message.id);
     if (message.ok) waiting?.resolve(message.result);
-    else waiting?.reject(new CommandError(message.problems ?? [], message.conflict));
+    else waiting?.reject(new CommandError(message.problems ?? [], message.conflict, message.reason));
   }
 
   private keep(buffer: ArrayBuffer): void {

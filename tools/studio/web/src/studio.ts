@@ -1,5 +1,5 @@
 // Connects the server with the stores. Everything that changes a run goes through `command`.
-import { Connection } from './connection';
+import { CommandError, Connection } from './connection';
 import { protocolVersion, type ServerMessage, type SystemMessage } from './protocol/messages';
 import type { TypesResult } from './protocol/editing';
 import type { Frame } from './protocol/frame';
@@ -52,8 +52,8 @@ export async function step(back: boolean): Promise<void> {
   try {
     await connection.request(back ? 'undo' : 'redo');
   } catch (error) {
-    const text = (error as Error).message;
-    actions.tell(text.startsWith('there is nothing to') ? 'info' : 'error', text);
+    const nothing = error instanceof CommandError && error.reason === 'nothing';
+    actions.tell(nothing ? 'info' : 'error', (error as Error).message);
   }
 }
 

@@ -100,7 +100,7 @@ class FileDialog {
       if (action.startsWith('save')) actions.tell('info', `Saved as ${baseName(done?.file ?? file)}.`);
     } catch (e) {
       this.error = (e as Error).message;
-      if (e instanceof CommandError && e.fileExists) this.taken = file;
+      if (e instanceof CommandError && e.reason === 'file_exists') this.taken = file;
     }
   }
 }

@@ -168,7 +168,7 @@ export interface ActionMessage {
 
 export interface Problem { severity?: string; file?: string; line?: number; column?: number; message: string; hint?: string }
 
-export interface ReplyMessage { type: 'reply'; id: number; ok: boolean; conflict?: boolean; result?: unknown; problems?: Problem[] }
+export interface ReplyMessage { type: 'reply'; id: number; ok: boolean; conflict?: boolean; reason?: string; result?: unknown; problems?: Problem[] }
 
 export type ServerMessage = HelloMessage | SystemMessage | WorldMessage | StatusMessage | ActionMessage | DocumentMessage | WorldDocument | ReplyMessage;
 
