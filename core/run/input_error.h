@@ -32,6 +32,11 @@ class InputError : public std::runtime_error {
     std::shared_ptr<const Diagnostics> diagnostics_;  ///< shared, as copies of an exception must not throw
 };
 
+/// A file would be replaced, and that was not asked for.
+class FileExists : public InputError {
+    using InputError::InputError;
+};
+
 /// Throws InputError when there is an error among the diagnostics.
 inline void throw_errors(Diagnostics diagnostics) {
     if (diagnostics.failed()) throw InputError(std::move(diagnostics));

@@ -247,7 +247,7 @@ void Document::save(const std::string& path, const Registry& registry, bool over
         throw InputError(fmt::format("'{}' was changed outside since it was read", to),
                          "reload it, merge both changes, or overwrite it");
     if (!overwrite && !same && fs::exists(to))
-        throw InputError(fmt::format("'{}' exists", to), "overwrite it, or choose another name");
+        throw FileExists(fmt::format("'{}' exists", to), "overwrite it, or choose another name");
     std::string text = text_;
     if (!same && !path_.empty() && readable_) {
         model::System moved = system_;

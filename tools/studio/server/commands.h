@@ -18,16 +18,9 @@ class Conflict : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-/// A command is refused for a reason that a page acts on: "file_exists", which the same command with
-/// "overwrite" replaces, or "nothing", as there is nothing to undo or to redo.
-class Refusal : public InputError {
-  public:
-    Refusal(const char* reason, const std::string& message, const std::string& hint = {})
-        : InputError(message, hint), reason_(reason) {}
-    const char* reason() const { return reason_; }
-
-  private:
-    const char* reason_;
+/// There is nothing left to undo, or to do again.
+class NothingLeft : public InputError {
+    using InputError::InputError;
 };
 
 /// Executes a command and returns its result. Throws InputError, Conflict, and json::exception for members

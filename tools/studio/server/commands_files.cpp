@@ -77,8 +77,7 @@ void Commands::check_free(const std::string& path) const {
 
 void Commands::check_new(const std::string& path) const {
     if (!c.value("overwrite", false) && std::filesystem::exists(path))
-        throw Refusal("file_exists", fmt::format("'{}' exists", path),
-                      "overwrite it, or choose another name");
+        throw FileExists(fmt::format("'{}' exists", path), "overwrite it, or choose another name");
 }
 
 std::vector<xml::PanelRow> Commands::panel_rows(const char* ending) {

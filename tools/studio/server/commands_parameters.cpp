@@ -84,8 +84,7 @@ json Commands::undo() { return back_or_forth(s.undo_, s.redo_, true); }
 json Commands::redo() { return back_or_forth(s.redo_, s.undo_, false); }
 
 json Commands::back_or_forth(std::vector<Session::Undo>& from, std::vector<Session::Undo>& to, bool back) {
-    if (from.empty())
-        throw Refusal("nothing", back ? "there is nothing to undo" : "there is nothing to redo");
+    if (from.empty()) throw NothingLeft(back ? "there is nothing to undo" : "there is nothing to redo");
     Session::Undo entry = std::move(from.back());
     from.pop_back();
     const json& command = back ? entry.undo : entry.redo;

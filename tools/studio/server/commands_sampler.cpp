@@ -66,8 +66,8 @@ void Commands::begin_sampling(const json& how) {
     if (mode == "sequence")
         file = next_of_sequence(file);
     else if (mode == "new" && fs::exists(file))
-        throw Refusal("file_exists", fmt::format("'{}' exists", file),
-                      "overwrite it, append to it, or choose another name");
+        throw FileExists(fmt::format("'{}' exists", file),
+                         "overwrite it, append to it, or choose another name");
     else if (mode != "new" && mode != "overwrite" && mode != "append")
         throw InputError(fmt::format("'{}' is not a way to write a file", mode),
                          "new, overwrite, append or sequence");

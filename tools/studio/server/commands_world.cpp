@@ -208,8 +208,7 @@ json Commands::world_save() {
     if (file != world.path)
         check_free(file);
     else if (!c.value("overwrite", false) && read_file(file) != world.saved)
-        throw Refusal("file_exists", fmt::format("'{}' was changed outside since it was read", file),
-                      "overwrite it");
+        throw FileExists(fmt::format("'{}' was changed outside since it was read", file), "overwrite it");
     RunInput wanted = s.begun_;  // with the text that the system had: its file may have changed
     wanted.world = file, wanted.world_text = world.text;
     s.make_run(wanted);  // a world in which the system cannot run is not written

@@ -250,8 +250,10 @@ json Session::execute(int client, const json& command) {
         return {{"ok", true}, {"result", execute_command(*this, client, command)}};
     } catch (const Conflict& e) {
         return {{"ok", false}, {"conflict", true}, {"problems", problem(e.what())}};
-    } catch (const Refusal& e) {
-        return {{"ok", false}, {"reason", e.reason()}, {"problems", problems_of(e.diagnostics())}};
+    } catch (const FileExists& e) {
+        return {{"ok", false}, {"reason", "file_exists"}, {"problems", problems_of(e.diagnostics())}};
+    } catch (const NothingLeft& e) {
+        return {{"ok", false}, {"reason", "nothing"}, {"problems", problems_of(e.diagnostics())}};
     } catch (const InputError& e) {
         return {{"ok", false}, {"problems", problems_of(e.diagnostics())}};
     } catch (const model::Refused& e) {
