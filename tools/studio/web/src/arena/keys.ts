@@ -26,6 +26,9 @@ export function stepOf(key: string, large: boolean): Step | null {
   }
 }
 
+/** To the millimetre: nothing in an arena needs more digits. */
+export const millimetre = (metres: number): number => Math.round(1000 * metres) / 1000;
+
 /** A pose in words. */
 export function placeText(name: string, pose: Pick<Pose, 'x' | 'y' | 'yaw'>): string {
   const degrees = Math.round((((pose.yaw * 180) / Math.PI) % 360 + 360) % 360) % 360;
@@ -53,7 +56,7 @@ export class Mover {
 
   async step(thing: Thing, from: Place, by: Step): Promise<void> {
     const at = this.target?.thing.index === thing.index ? this.target.place : this.reached(thing, from);
-    this.target = { thing, place: { x: at.x + by.x, y: at.y + by.y, yaw: at.yaw + by.turn } };
+    this.target = { thing, place: { x: millimetre(at.x + by.x), y: millimetre(at.y + by.y), yaw: at.yaw + by.turn } };
     this.last!.places.push(this.target.place);
     if (this.busy) return;
     this.busy = true;
