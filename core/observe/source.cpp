@@ -61,16 +61,21 @@ std::optional<Part> part_of(const Recorded& what, const expression::Source& sour
 }
 
 void Part::take(std::span<const double> row, std::span<double> out) const {
-    if (!what.mean || numbers.size() == 1) {
-        for (std::size_t i = 0; i < numbers.size(); ++i) out[i] = row[numbers[i]];
-        return;
+    // Most parts are one piece of the row: then nothing is looked up.
+    const bool one_piece = numbers.back() - numbers.front() + 1 == numbers.size();
+    const auto each = [&](auto visit) {
+        if (one_piece)
+            for (const double v : row.subspan(numbers.front(), numbers.size())) visit(v);
+        else
+            for (const std::size_t n : numbers) visit(row[n]);
+    };
+    if (what.mean && numbers.size() > 1) {
+        double sum = 0;
+        each([&](double v) { sum += v; });
+        out[0] = sum / static_cast<double>(numbers.size());
+    } else {
+        each([to = out.begin()](double v) mutable { *to++ = v; });
     }
-    double sum = 0;
-    if (numbers.back() - numbers.front() + 1 == numbers.size())  // in one piece, as mostly
-        for (const double v : row.subspan(numbers.front(), numbers.size())) sum += v;
-    else
-        for (const std::size_t n : numbers) sum += row[n];
-    out[0] = sum / static_cast<double>(numbers.size());
 }
 
 namespace {

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""What watching costs: cycles per second with three pages as a ratio to none, and the latency of a slow page.
+"""What watching costs: cycles per second with three pages as a ratio to none, the engine's time for pages, and the latency of a
+slow page.
 
 usage: studio.py FORAGE [ROUNDS]    by default 100 rounds, in each of which the same cycles run with pages and without, 5 minutes
 
 The speed of a shared machine changes by a tenth from one second to the next: the interval of the ratio says what the rounds show.
+The engine measures its own time for pages, which does not depend on what else the machine does.
 """
 import pathlib
 import statistics
@@ -38,13 +40,14 @@ class Watcher(threading.Thread):
 
 
 def rate(control, start, watchers):
-    """Cycles per second of the second after `start`, a cycle of the past."""
+    """Cycles per second after `start`, a cycle of the past, and the share of the engine's time that all pages take."""
     control.do('pause')
     control.do('seek', cycle=start)
     for w in watchers:
         w.start()
     control.do('run')
     time.sleep(0.2)
+    control.messages.clear()
     first, begun = control.do('history')['now'], time.monotonic()
     time.sleep(1)
     cycles, seconds = control.do('history')['now'] - first, time.monotonic() - begun
@@ -52,7 +55,7 @@ def rate(control, start, watchers):
         w.over = True
     for w in watchers:
         w.join()
-    return cycles / seconds
+    return cycles / seconds, control.last('status')['pages_share']
 
 
 def interval_of_median(values):
@@ -73,20 +76,23 @@ def main():
         control.do('run')
         time.sleep(3)
         start = control.do('history')['checkpoints'][-2]
-        ratios = []
+        ratios, shares = [], []
         for i in range(rounds):
             rates = {}
             for pages in ((0, 3), (3, 0))[i % 2]:
                 rates[pages] = rate(control, start, [Watcher(studio, groups) for _ in range(pages)])
-            ratios.append(rates[3] / rates[0])
+            ratios.append(rates[3][0] / rates[0][0])
+            shares.append(rates[3][1] - rates[0][1])
         low, high = interval_of_median(ratios)
         print(f'cycles per second with three pages / with none: {statistics.median(ratios):.3f} '
               f'(95 % interval of the median of {rounds} rounds: {low:.3f} to {high:.3f})')
+        low, middle, high = statistics.quantiles(shares, n=4)
+        print(f"engine's time for three pages: {100 * middle:.2f} % (half of the rounds: {100 * low:.2f} to {100 * high:.2f} %)")
         # The age of what a page that needs 80 ms per frame has just drawn, in real time.
         control.do('speed', mode='real')
         slow = Page(studio)
         slow.do('subscribe', source=groups[0])
-        per_cycle, ages = control.last('system')['seconds_per_cycle'], []
+        ages = []
         for _ in range(60):
             while not slow.frames:
                 slow.receive()

@@ -152,6 +152,31 @@ class Watching(unittest.TestCase):
             behind.append(self.page.do('history')['now'] - frame.cycle)
         self.assertLess(max(behind), 40)  # cycles of 40 ms; a queue would grow without limit
 
+    def test_the_time_that_pages_take_is_told(self):
+        def share(seconds=1.5):
+            end = time.monotonic() + seconds
+            while time.monotonic() < end:
+                self.page.receive(0.1)
+                for frame in self.page.frames:
+                    self.page.acknowledge(frame.seq)
+                self.page.frames.clear()
+            return self.page.last('status')['pages_share']
+
+        self.page.do('speed', mode='free')
+        self.page.do('run')
+        alone = share()
+        for source in ('world:rays', 'world:camera', 'Bug/Place Cells'):
+            self.page.do('subscribe', source=source)
+        self.page.do('subscribe', source='Bug/Place Cells', **{'class': 'append'})
+        watched = share()
+        self.assertGreaterEqual(alone, 0)
+        self.assertGreater(watched, alone)
+        self.assertLess(watched, 1)
+        self.page.do('pause')
+        while self.page.last('status')['running']:
+            self.page.receive()
+        self.assertEqual(self.page.last('status')['pages_share'], 0)
+
     def test_every_cycle_is_appended(self):
         stream = self.page.do('subscribe', source='mean(Bug/Light)', **{'class': 'append'})['stream']
         pairs = self.page.do('subscribe', source='Bug/Light', every=10, **{'class': 'append'})['stream']

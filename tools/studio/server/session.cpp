@@ -26,6 +26,20 @@ double clock_now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// Adds the time until its end to a sum, s.
+class Stopwatch {
+  public:
+    explicit Stopwatch(double& sum) : sum_(sum) {}
+    ~Stopwatch() { sum_ += clock_now() - begun_; }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+  private:
+    double& sum_;
+    double begun_ = clock_now();
+};
+
+constexpr std::uint64_t timed_rows = 64;    ///< of so many cycles one is timed: the clock takes time, too
 constexpr double slice = 0.004;             ///< seconds of cycles between two looks for commands
 constexpr double look_interval = 1;         ///< s between two looks at the document's file
 constexpr double status_interval = 0.1;     ///< s
@@ -205,6 +219,7 @@ json Session::status() const {
             {"speed", {{"mode", mode_}, {"value", value_}}},
             {"cycles_per_second", rate},
             {"times_real_time", rate * run_->seconds_per_cycle()},
+            {"pages_share", running_ ? pages_share_ : 0},
             {"generation", generation_},
             {"undo", undo_.empty() ? json(nullptr) : json(undo_.back().title)},
             {"redo", redo_.empty() ? json(nullptr) : json(redo_.back().title)},
@@ -221,6 +236,7 @@ json Session::status() const {
 }
 
 void Session::message(int client, std::string_view text) {
+    const double begun = clock_now();
     json reply;
     json id = nullptr;
     try {
@@ -233,6 +249,7 @@ void Session::message(int client, std::string_view text) {
                 const auto seq = command.value("seq", json());
                 if (const auto it = clients_.find(client); it != clients_.end() && seq.is_number_unsigned())
                     it->second.acknowledge(seq.get<std::uint32_t>());
+                pages_time_ += clock_now() - begun;
                 return;
             }
             reply = execute(client, command);
@@ -276,7 +293,16 @@ void Session::cycle() {
     history_.after_cycle(*run_);
     if (reference_) step_reference();
     const std::uint64_t done = run_->cycle() - 1;
-    sources_.after_cycle(done, version_);
+    if (done % timed_rows == 0) {
+        double time = 0;
+        {
+            const Stopwatch watch(time);
+            sources_.after_cycle(done, version_);
+        }
+        pages_time_ += time * static_cast<double>(timed_rows);
+    } else {
+        sources_.after_cycle(done, version_);
+    }
     if (!sampler_) return;
     sampler_->recorder->record(run_->simulation());
     if (done % sampler_->every == 0) ++sampler_->rows;
@@ -333,7 +359,7 @@ double Session::work(double now) {
     if (!clients_.empty() && now - looked_at_ >= look_interval) look_outside(), looked_at_ = now;
     if (running_) {
         const double wanted = rate();
-        if (rate_from_ < 0) rate_from_ = now, rate_cycle_ = run_->cycle();
+        if (rate_from_ < 0) rate_from_ = now, rate_cycle_ = run_->cycle(), pages_time_ = 0;
         if (pace_from_ < 0) pace_from_ = now, pace_cycle_ = run_->cycle();
         try {
             const double end = clock_now() + slice;
@@ -351,10 +377,12 @@ double Session::work(double now) {
         }
         if (const double passed = now - rate_from_; passed > 0.5) {
             measured_rate_ = static_cast<double>(run_->cycle() - rate_cycle_) / passed;
-            rate_from_ = now, rate_cycle_ = run_->cycle();
+            pages_share_ = pages_time_ / passed;
+            rate_from_ = now, rate_cycle_ = run_->cycle(), pages_time_ = 0;
         }
     }
     if (!clients_.empty() && (status_due_ || running_) && now - status_at_ >= status_interval) {
+        const Stopwatch watch(pages_time_);
         tell(status());
         status_at_ = now, status_due_ = false;
     }
@@ -364,6 +392,7 @@ double Session::work(double now) {
     // All pages get their frames at the same time, so that what several of them watch is drawn once.
     bool waits = false, sent = false;
     const bool due = failed_.empty() && now - frames_at_ >= frame_interval;
+    const Stopwatch watch(pages_time_);
     for (auto& [id, client] : clients_) {
         if (due)
             if (auto frame = client.frame(*run_, version_, epoch_))

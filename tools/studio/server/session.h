@@ -237,6 +237,7 @@ class Session {
     double pace_from_ = -1, status_at_ = -1, frames_at_ = -1;
     std::uint64_t pace_cycle_ = 0;
     double rate_from_ = -1, measured_rate_ = 0;
+    double pages_time_ = 0, pages_share_ = 0;  ///< s since rate_from_, and of the last measured time
     std::uint64_t rate_cycle_ = 0;
 };
 

@@ -121,6 +121,8 @@ export interface StatusMessage {
   speed: { mode: SpeedMode; value: number };
   cycles_per_second: number;
   times_real_time: number;
+  /** The part of the engine's time that all pages take, 0 to 1. */
+  pages_share: number;
   generation: number;
   undo: string | null;
   redo: string | null;
