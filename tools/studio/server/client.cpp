@@ -46,14 +46,16 @@ bool Client::unsubscribe(std::uint32_t stream) { return streams_.erase(stream) >
 std::optional<std::string> Client::frame(Run& run, std::uint64_t version, std::uint32_t epoch) {
     if (streams_.empty() || in_flight() >= window || version_ == version) return std::nullopt;
     version_ = version;
+    std::vector<const Chunk*> chunks;
+    for (auto& [number, stream] : streams_) chunks.push_back(&stream.take(version));
     std::string out = "FRG1";
     put(out, std::uint16_t{1}), put(out, static_cast<std::uint16_t>(streams_.size()));
     put(out, ++sent_), put(out, epoch), put(out, run.cycle()), put(out, run.seconds());
-    std::vector<const Chunk*> chunks;
     const auto aligned = [](std::size_t at) { return (at + 7) / 8 * 8; };
     std::size_t end = 32 + 32 * streams_.size();
-    for (auto& [number, stream] : streams_) {
-        const Chunk& c = *chunks.emplace_back(&stream.take(version));
+    auto chunk = chunks.begin();
+    for (const auto& [number, stream] : streams_) {
+        const Chunk& c = **chunk++;
         end = aligned(end);
         put(out, number), put(out, c.rows), put(out, c.columns);
         put(out, static_cast<std::uint8_t>(c.type));

@@ -39,7 +39,8 @@ class Stopwatch {
     double begun_ = clock_now();
 };
 
-constexpr std::uint64_t timed_rows = 64;    ///< of so many cycles one is timed: the clock takes time, too
+/// One cycle of so many is timed, as the clock takes time, too; rows begin and end at even ones.
+constexpr std::uint64_t timed_cycle = 61;
 constexpr double slice = 0.004;             ///< seconds of cycles between two looks for commands
 constexpr double look_interval = 1;         ///< s between two looks at the document's file
 constexpr double status_interval = 0.1;     ///< s
@@ -293,16 +294,14 @@ void Session::cycle() {
     history_.after_cycle(*run_);
     if (reference_) step_reference();
     const std::uint64_t done = run_->cycle() - 1;
-    if (done % timed_rows == 0) {
-        double time = 0;
-        {
-            const Stopwatch watch(time);
-            sources_.after_cycle(done, version_);
-        }
-        pages_time_ += time * static_cast<double>(timed_rows);
+    if (done % timed_cycle == 0) {
+        rows_time_ = 0;
+        const Stopwatch watch(rows_time_);
+        sources_.after_cycle(done, version_);
     } else {
         sources_.after_cycle(done, version_);
     }
+    pages_time_ += rows_time_;
     if (!sampler_) return;
     sampler_->recorder->record(run_->simulation());
     if (done % sampler_->every == 0) ++sampler_->rows;
@@ -377,7 +376,7 @@ double Session::work(double now) {
         }
         if (const double passed = now - rate_from_; passed > 0.5) {
             measured_rate_ = static_cast<double>(run_->cycle() - rate_cycle_) / passed;
-            pages_share_ = pages_time_ / passed;
+            pages_share_ = std::min(1., pages_time_ / passed);
             rate_from_ = now, rate_cycle_ = run_->cycle(), pages_time_ = 0;
         }
     }

@@ -238,6 +238,7 @@ class Session {
     std::uint64_t pace_cycle_ = 0;
     double rate_from_ = -1, measured_rate_ = 0;
     double pages_time_ = 0, pages_share_ = 0;  ///< s since rate_from_, and of the last measured time
+    double rows_time_ = 0;                     ///< s of a cycle for streams of every cycle
     std::uint64_t rate_cycle_ = 0;
 };
 

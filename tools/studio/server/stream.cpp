@@ -81,12 +81,14 @@ void Rows::after_cycle(std::uint64_t cycle, std::uint64_t version) {
     push(first_, pairs_);
 }
 
+void Rows::drop_before(std::uint64_t row) {
+    const auto numbers = static_cast<std::ptrdiff_t>((row - begin_) * columns_);
+    numbers_.erase(numbers_.begin(), numbers_.begin() + numbers);
+    begin_ = row;
+}
+
 void Rows::push(std::uint64_t cycle, std::span<const double> numbers) {
-    if (end() - begin_ >= most_) {
-        const std::size_t dropped = most_ / 2;
-        numbers_.erase(numbers_.begin(), numbers_.begin() + static_cast<std::ptrdiff_t>(dropped * columns_));
-        begin_ += dropped;
-    }
+    if (end() - begin_ >= most_) drop_before(begin_ + most_ / 2);
     numbers_.push_back(static_cast<double>(cycle));
     numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
 }
@@ -105,14 +107,18 @@ void Stream::clear() {
 
 const Chunk& Stream::take(std::uint64_t version) {
     if (!rows_) return source_->chunk(version);
-    const auto numbers = rows_->from(std::max(next_, rows_->begin()));
+    const std::uint64_t first = rows_->begin();
+    const auto numbers = rows_->from(std::max(next_, first));
     chunk_.type = Type::float64;
     chunk_.columns = static_cast<std::uint32_t>(rows_->columns());
     chunk_.rows = static_cast<std::uint32_t>(numbers.size() / rows_->columns());
-    chunk_.gap = next_<rows_->begin(), chunk_.pairs = every_> 1;
-    next_ = rows_->end();
+    chunk_.gap = first > next_;
+    chunk_.pairs = every_ > 1;
     set_range(chunk_, numbers, rows_->columns());
     chunk_.bytes = bytes_of<double>(numbers);
+    next_ = rows_->end();
+    // A page that watches alone needs none of them again; of several, each fetches at its own time.
+    if (rows_.use_count() == 1) rows_->drop_before(next_);
     return chunk_;
 }
 
@@ -140,7 +146,7 @@ Stream SourcePool::stream(Run& run, Run* reference, const std::string& text, Del
     if (delivery == Delivery::append) {
         std::erase_if(rows_, [](const auto& known) { return known.expired(); });
         for (const auto& known : rows_)
-            if (auto shared = known.lock(); shared->are(*source, every)) rows = shared;
+            if (auto shared = known.lock(); shared->matches(*source, every)) rows = shared;
         if (!rows) rows_.push_back(rows = std::make_shared<Rows>(source, every));
     }
     return Stream(text, std::move(source), std::move(rows), every);

@@ -53,7 +53,7 @@ class SharedSource {
 class Rows {
   public:
     Rows(std::shared_ptr<SharedSource> source, std::uint64_t every);
-    bool are(const SharedSource& source, std::uint64_t every) const {
+    bool matches(const SharedSource& source, std::uint64_t every) const {
         return source_.get() == &source && every_ == every;
     }
 
@@ -65,6 +65,8 @@ class Rows {
     std::span<const double> from(std::uint64_t row) const;
 
     void after_cycle(std::uint64_t cycle, std::uint64_t version);
+    /// Drops the rows before this one, which is in [begin(), end()].
+    void drop_before(std::uint64_t row);
     /// Drops all rows: the run begins anew or goes back.
     void clear();
 
