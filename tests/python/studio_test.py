@@ -60,6 +60,64 @@ def test_a_restart_with_another_seed_is_repeated_in_python():
         assert run.digest() == wanted
 
 
+def test_an_edit_is_repeated_in_python(tmp_path):
+    file = tmp_path / "edited.iqr"
+    file.write_bytes((SYSTEMS / "cookbook/oscillator.iqr").read_bytes())
+    system = forage.System.read(file)
+    process, group = system.processes[0], system.groups[0]
+    connection = system.connections[0].id
+    tuples = {"form": "tuples", "tuples": [{"source": [[1, 1]], "target": [[1, 1]]}]}
+    with Studio(os.environ["FORAGE"], str(file)) as studio:
+        page = Page(studio)
+        page.do("pause")
+        made = []
+        for operations in (
+            [{"do": "add_process", "name": "More \"cells\"", "x": 10, "y": 20}],
+            [{"do": "add_group", "process": process.id, "name": "Ear", "width": 3, "height": 2, "x": 5, "y": 6}, {"do": "rename", "id": group.id, "name": "Nose"}],
+            [{"do": "add_connection", "source": group.id, "target": "Ear", "kind": "inhibitory"}],
+            [{"do": "type", "id": "Ear", "part": "neuron", "type": "neuronIntegrateFire"}, {"do": "parameter", "id": "Ear", "name": "threshold", "value": 0.25}],
+            [{"do": "pattern", "id": connection, "pattern": tuples}, {"do": "delay", "id": connection, "delay": {"type": "FunUniform", "values": {"value": 2}}}],
+            [{"do": "set", "id": process.id, "property": "enabled", "value": True}, {"do": "set", "id": "Ear", "property": "note", "value": "hears"}],
+            [{"do": "place", "id": "Ear", "x": 70, "y": 80}],
+            [{"do": "add_comment", "process": process.id, "text": "as it was", "x": 1, "y": 2}],
+            [{"do": "system", "author": "Ada"}],
+            [{"do": "remove", "ids": [connection]}],
+        ):
+            for o in operations:  # ids that an operation before has made
+                for member in ("id", "target"):
+                    o[member] = made[0] if o.get(member) == "Ear" else o.get(member)
+                    if o[member] is None:
+                        del o[member]
+            ids = page.do("edit", operations=operations)["ids"]
+            made += [i for o, i in zip(operations, ids) if o["do"] == "add_group"]
+        text = page.do("document")["text"]
+        actions = [m["python"] for m in page.messages if m["type"] == "action"]
+        page.close()
+    assert len(actions) == 10
+    for python in actions:
+        exec(python, {"system": system})
+    assert system == forage.System.parse(text, path=file)
+    assert system[f"{process.name}/Ear"].params["threshold"] == 0.25
+
+
+def test_operations_are_carried_out_all_or_none():
+    system = forage.System("some")
+    assert system.edit({"do": "add_process", "name": "P", "id": "p"}) == ["p"]
+    before = system.copy()
+    for operations, message in (
+        ([{"do": "add_group", "process": "p", "name": "G"}, {"do": "rename", "id": "none", "name": "x"}], "none"),
+        ([{"do": "grow"}], "there is no operation 'grow'"),
+        ([{"name": "P"}], "do"),
+        ([{"do": "rename", "id": "p", "name": " "}], "cannot be empty"),
+        ([float("nan")], "not a list"),
+    ):
+        with pytest.raises(forage.InputError, match=message):
+            system.edit(operations)
+        assert system == before
+    with pytest.raises(TypeError):
+        system.edit([{"do": object()}])
+
+
 def test_robots_are_moved_and_begin_trials(dac):
     name = "Bug"
     with pytest.raises(forage.InputError, match="no robot and no movable object"):

@@ -105,6 +105,16 @@ void remove_item(PythonSystem& self, const py::object& what) {
     model::remove(self.model, item.attr("id").cast<std::string>());
 }
 
+py::object edit_system(PythonSystem& self, const py::object& operations) {
+    const auto json = py::module_::import("json");
+    py::list all;
+    if (py::isinstance<py::dict>(operations))
+        all.append(operations);
+    else
+        all = py::list(operations);
+    return json.attr("loads")(edit(self, json.attr("dumps")(all).cast<std::string>()));
+}
+
 SystemProcess import_file(PythonSystem& self, const Path& path) {
     return {{self.shared_from_this(), import_process(self, path.string())}};
 }
@@ -278,6 +288,14 @@ Raises InputError and adds nothing when a name or a value is wrong. The cells ar
              "groups.")
         .def("import_process", &import_file, "path"_a,
              "Adds the process in a file (.iqrProcess) under new ids and returns it. Raises InputError.")
+        .def(
+            "edit", &edit_system, "operations"_a,
+            R"(Carries out operations of the studio, a dict or a list of them, and returns what each has made: an id, a list of ids, or None.
+
+    system.edit({"do": "place", "id": "light", "x": 120, "y": 80})
+
+docs/design/studio-protocol.md lists them, in the section on editing; the studio shows each edit in this form. All operations are carried out, or none when one is
+refused, which raises InputError.)")
         .def(
             "join",
             [](PythonSystem& self, const PythonSystem& other) { model::join(self.model, other.model); },

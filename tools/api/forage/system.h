@@ -39,6 +39,11 @@ SystemFile read_system(const std::string& path, std::vector<std::string> plugins
 SystemFile parse_system(const std::string& text, const std::string& path,
                         std::vector<std::string> plugins = {}, Diagnostics* warnings = nullptr);
 
+/// Carries out the operations of an editor, a JSON list as in the command `edit` of the studio
+/// (docs/design/studio-protocol.md): all of them, or none when one is refused. Returns a JSON list of what
+/// each has made: an id, a list of ids, or null. Throws InputError.
+std::string edit(SystemFile& file, const std::string& operations);
+
 /// The text of the system's file.
 std::string text_of(const SystemFile& file);
 /// Writes the file `path`, which is the system's file afterwards: links and names of files in it are changed

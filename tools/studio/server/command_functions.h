@@ -151,7 +151,7 @@ struct Commands {
     json settings();
     json files();
     /// After a step of the document.
-    json edited(const std::string& title);
+    json edited(const std::string& title, const std::string& python = {});
 
     // ---- the text of the world ----
     Session::WorldText& world_text();

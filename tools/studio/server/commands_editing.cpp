@@ -6,13 +6,17 @@
 #include "core/model/operations.h"
 #include "core/xml/writer.h"
 #include "tools/api/describe_json.h"
+#include "tools/api/forms.h"
+#include "tools/api/operations.h"
 #include "tools/studio/server/command_functions.h"
-#include "tools/studio/server/forms.h"
-#include "tools/studio/server/operations.h"
 #include "tools/studio/server/problems.h"
 
 namespace forage::studio {
 namespace {
+
+using editing::carry_out;
+using editing::json_of;
+using editing::title_of;
 
 constexpr std::size_t most_pairs = 200'000;  ///< in a reply
 constexpr const char* signs[] = {"excitatory", "inhibitory", "modulatory"};
@@ -156,9 +160,9 @@ struct Description {
 
 Document& Commands::document() { return *s.document_; }
 
-json Commands::edited(const std::string& title) {
+json Commands::edited(const std::string& title, const std::string& python) {
     s.add_undo({nullptr, nullptr, title, true});
-    s.follow_document(title);
+    s.follow_document(title, python);
     s.tell_document();
     return {{"generation", s.generation_}};
 }
@@ -182,10 +186,11 @@ json Commands::edit() {
             for (const auto& o : operations) ids.push_back(carry_out(o, system, run().registry()));
         },
         title, joins_document() ? c.value("merge", "") : "");
+    const auto python = of_edit(operations, ids).python;
     if (step) {
-        edited(title);
+        edited(title, python);
     } else if (document().text() != before) {  // it joined the step before
-        s.follow_document(title);
+        s.follow_document(title, python);
         s.tell_document();
     }
     return {{"ids", std::move(ids)}, {"generation", s.generation_}};

@@ -28,6 +28,20 @@ std::string literal(const std::string& text) {
     return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
+/// A value of JSON.
+std::string in_python(const nlohmann::json& value) {
+    if (value.is_null()) return "None";
+    if (value.is_boolean()) return value.get<bool>() ? "True" : "False";
+    std::vector<std::string> parts;
+    if (value.is_array()) {
+        for (const auto& each : value) parts.push_back(in_python(each));
+        return fmt::format("[{}]", fmt::join(parts, ", "));
+    }
+    if (!value.is_object()) return value.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    for (const auto& [name, each] : value.items()) parts.push_back(literal(name) + ": " + in_python(each));
+    return fmt::format("{{{}}}", fmt::join(parts, ", "));
+}
+
 std::string value_in_python(const std::string& text) {
     if (text == "true") return "True";
     if (text == "false") return "False";
@@ -116,6 +130,18 @@ Equivalent of_manipulation(const DrivenGroup& driven, std::uint64_t cycle) {
 Equivalent of_end(const DrivenGroup& driven, std::uint64_t begun, std::uint64_t cycle) {
     return {manipulation_option(driven, from(begun) + fmt::format("; until cycle {}", cycle)),
             variable(driven.group) + ".remove()"};
+}
+
+Equivalent of_edit(const nlohmann::json& operations, const nlohmann::json& ids) {
+    constexpr std::size_t longest = 4000;
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < operations.size(); ++i) {
+        nlohmann::json o = operations[i];
+        if (ids[i].is_string() && o["do"] != "paste") o["id"] = ids[i];
+        all.push_back(in_python(o));
+    }
+    auto python = fmt::format("system.edit([{}])", fmt::join(all, ",\n             "));
+    return {"", python.size() > longest ? std::string() : std::move(python)};
 }
 
 Equivalent of_move(const std::string& name, double x, double y, double heading) {

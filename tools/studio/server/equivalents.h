@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 namespace forage::studio {
 
 struct Equivalent {
@@ -27,6 +29,9 @@ struct DrivenGroup {
 /// Its begin, and its end when it began before the cycle `from`.
 Equivalent of_manipulation(const DrivenGroup& driven, std::uint64_t cycle);
 Equivalent of_end(const DrivenGroup& driven, std::uint64_t from, std::uint64_t cycle);
+/// Operations on the system, with the ids that they have made. `forage run` has no option for it, and what is
+/// pasted is not repeated when it is long.
+Equivalent of_edit(const nlohmann::json& operations, const nlohmann::json& ids);
 /// A robot or an object that is moved. `forage run` has no option for it.
 Equivalent of_move(const std::string& name, double x, double y, double heading);
 /// A new trial; `start` is -1 for the next start pose.

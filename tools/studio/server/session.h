@@ -167,7 +167,7 @@ class Session {
     /// Opens another system, and tells the pages. Throws InputError, and leaves everything as it is then.
     void open_document(const RunInput& input);
     /// Makes the run what the document says, as far as that can run, and tells the pages.
-    void follow_document(const std::string& title);
+    void follow_document(const std::string& title, const std::string& python = {});
     /// Builds the run anew; groups and connections that did not change keep their states. Returns false, with
     /// the run as it was, when the system cannot run.
     /// At cycle 0 it begins anew, unless it `goes_on` there, too.

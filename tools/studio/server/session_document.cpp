@@ -212,7 +212,7 @@ bool Session::set_in_document(const std::vector<std::string>& assignments, const
 
 void Session::step_document(bool back) { back ? document_->undo() : document_->redo(); }
 
-void Session::follow_document(const std::string& title) {
+void Session::follow_document(const std::string& title, const std::string& python) {
     const auto& now = document_->system();
     const auto changes = model::parameter_changes(built_, now, run_->registry());
     const auto before = generation_;
@@ -252,7 +252,7 @@ void Session::follow_document(const std::string& title) {
               {"command", "edit"},
               {"title", title},
               {"shell", ""},
-              {"python", ""},
+              {"python", python},
               {"undoable", true},
               {"ended", std::move(ended)}});
     }

@@ -1,4 +1,4 @@
-// The operations of the command `edit`.
+// The operations of an editor, as JSON: docs/design/studio-protocol.md lists them.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -6,7 +6,7 @@
 #include "core/model/system.h"
 #include "core/types/registry.h"
 
-namespace forage::studio {
+namespace forage::editing {
 
 using nlohmann::json;
 
@@ -16,4 +16,4 @@ json carry_out(const json& operation, model::System& system, const Registry& reg
 /// What an operation does, in a few words.
 std::string title_of(const json& operation, const model::System& system);
 
-}  // namespace forage::studio
+}  // namespace forage::editing

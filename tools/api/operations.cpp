@@ -1,4 +1,4 @@
-#include "tools/studio/server/operations.h"
+#include "tools/api/operations.h"
 
 #include <algorithm>
 #include <map>
@@ -11,9 +11,9 @@
 #include "core/run/input_error.h"
 #include "core/types/registry.h"
 #include "core/xml/reader.h"
-#include "tools/studio/server/forms.h"
+#include "tools/api/forms.h"
 
-namespace forage::studio {
+namespace forage::editing {
 namespace {
 
 using namespace model;
@@ -279,4 +279,4 @@ std::string title_of(const json& o, const System& system) {
     return fmt::format("{} of {}", what, name);
 }
 
-}  // namespace forage::studio
+}  // namespace forage::editing

@@ -6,7 +6,7 @@
 
 #include "core/model/system.h"
 
-namespace forage::studio {
+namespace forage::editing {
 
 using nlohmann::json;
 
@@ -25,4 +25,4 @@ std::vector<model::Point> points_from(const json& points);
 /// `most`.
 int whole_from(const json& number, double most = 1e6);
 
-}  // namespace forage::studio
+}  // namespace forage::editing

@@ -1,4 +1,4 @@
-#include "tools/studio/server/forms.h"
+#include "tools/api/forms.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "core/run/input_error.h"
 
-namespace forage::studio {
+namespace forage::editing {
 namespace {
 
 using namespace model;
@@ -217,4 +217,4 @@ Topology topology_from(const json& form) {
                         form.value("wrap_y", false)};
 }
 
-}  // namespace forage::studio
+}  // namespace forage::editing
