@@ -2,10 +2,10 @@
 """What watching costs: cycles per second with three pages as a ratio to none, the engine's time for pages, and the latency of a
 slow page.
 
-usage: studio.py FORAGE [ROUNDS]    by default 100 rounds, in each of which the same cycles run with pages and without, 5 minutes
+usage: studio.py FORAGE [ROUNDS]    by default 100 rounds, in each of which the same cycles run with pages and without, 6 minutes
 
 The speed of a shared machine changes by a tenth from one second to the next: the interval of the ratio says what the rounds show.
-The engine measures its own time for pages, which does not depend on what else the machine does.
+The engine's own time for pages is measured where it is spent, by the clock: it varies less, but other work beside it makes it longer.
 """
 import pathlib
 import statistics

@@ -29,8 +29,8 @@ struct DrivenGroup {
 /// Its begin, and its end when it began before the cycle `from`.
 Equivalent of_manipulation(const DrivenGroup& driven, std::uint64_t cycle);
 Equivalent of_end(const DrivenGroup& driven, std::uint64_t from, std::uint64_t cycle);
-/// Operations on the system, with the ids that they have made. `forage run` has no option for it, and what is
-/// pasted is not repeated when it is long.
+/// Operations on the system, with the ids that they have made. `forage run` has no option for it. The Python
+/// is empty when it would have more than 4000 characters, as it may for what is pasted.
 Equivalent of_edit(const nlohmann::json& operations, const nlohmann::json& ids);
 /// A robot or an object that is moved. `forage run` has no option for it.
 Equivalent of_move(const std::string& name, double x, double y, double heading);
