@@ -4,6 +4,7 @@ import { request } from '../studio';
 
 /** Of the active set-up below `body`; others may be about another system. */
 export async function showChoices(body: HTMLElement): Promise<void> {
+  for (const button of body.querySelectorAll('.setup:not(.active) [aria-pressed]')) button.removeAttribute('aria-pressed');
   for (const choices of body.querySelectorAll<HTMLElement>('.setup.active .choices')) {
     const assignment = choices.getAttribute('aria-label')!;
     const item = assignment.slice(0, assignment.lastIndexOf('.'));
