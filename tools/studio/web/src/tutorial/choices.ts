@@ -12,6 +12,7 @@ export async function showChoices(body: HTMLElement): Promise<void> {
       (r) => r.parameters.find((p) => p.assignment === assignment)?.value,
       () => undefined, // the system that is open is another one
     );
+    if (!choices.closest('.setup.active')) continue; // another one was set up meanwhile
     for (const button of choices.querySelectorAll<HTMLElement>('[data-set]')) {
       const own = button.dataset.set!.slice(assignment.length + 1);
       const inForce = value !== undefined && (String(value) === own || (own !== '' && Number(value) === Number(own)));
