@@ -2,11 +2,13 @@
 """What watching costs: cycles per second with three pages as a ratio to none, the engine's time for pages, and the latency of a
 slow page.
 
-usage: studio.py FORAGE [ROUNDS]    by default 100 rounds, in each of which the same cycles run with pages and without, 6 minutes
+usage: studio.py FORAGE [ROUNDS]    by default 400 rounds, in each of which the same cycles run with pages and without, 12 minutes
 
-The speed of a shared machine changes by a tenth from one second to the next: the interval of the ratio says what the rounds show.
+The speed of a shared machine changes by a tenth from one second to the next. Many short rounds average that better than few long
+ones, and the interval of the ratio says what they show.
 The engine's own time for pages is measured where it is spent, by the clock: it varies less, but other work beside it makes it longer.
 """
+import contextlib
 import pathlib
 import statistics
 import sys
@@ -39,23 +41,42 @@ class Watcher(threading.Thread):
         self.page.close()
 
 
-def rate(control, start, watchers):
-    """Cycles per second after `start`, a cycle of the past, and the share of the engine's time that all pages take."""
-    control.do('pause')
-    control.do('seek', cycle=start)
+@contextlib.contextmanager
+def watched_by(pages, studio, groups):
+    """So many pages watch the run."""
+    watchers = [Watcher(studio, groups) for _ in range(pages)]
     for w in watchers:
         w.start()
+    try:
+        yield
+    finally:
+        for w in watchers:
+            w.over = True
+        for w in watchers:
+            w.join()
+
+
+def rate(control, start):
+    """Cycles per second in a short time after `start`, a cycle of the past."""
+    control.do('pause')
+    control.do('seek', cycle=start)
     control.do('run')
-    time.sleep(0.2)
-    control.messages.clear()
+    time.sleep(0.1)
     first, begun = control.do('history')['now'], time.monotonic()
-    time.sleep(1)
-    cycles, seconds = control.do('history')['now'] - first, time.monotonic() - begun
-    for w in watchers:
-        w.over = True
-    for w in watchers:
-        w.join()
-    return cycles / seconds, control.last('status')['pages_share']
+    time.sleep(0.25)
+    return (control.do('history')['now'] - first) / (time.monotonic() - begun)
+
+
+def share(control, start):
+    """The share of the engine's time that all pages take."""
+    control.do('pause')
+    control.do('seek', cycle=start)
+    control.do('run')
+    time.sleep(2)
+    control.messages.clear()
+    time.sleep(10)
+    control.do('history')
+    return statistics.mean(m['pages_share'] for m in control.messages if m['type'] == 'status')
 
 
 def interval_of_median(values):
@@ -66,7 +87,7 @@ def interval_of_median(values):
 
 def main():
     forage = sys.argv[1]
-    rounds = int(sys.argv[2]) if len(sys.argv) > 2 else 100
+    rounds = int(sys.argv[2]) if len(sys.argv) > 2 else 400
     systems = pathlib.Path(__file__).parents[2] / 'systems'
     with Studio(forage, str(systems / 'dac_foraging.iqr'), '--world', str(systems / 'worlds/basic_arena.world')) as studio:
         control = Page(studio)
@@ -76,18 +97,21 @@ def main():
         control.do('run')
         time.sleep(3)
         start = control.do('history')['checkpoints'][-2]
-        ratios, shares = [], []
+        ratios = []
         for i in range(rounds):
             rates = {}
             for pages in ((0, 3), (3, 0))[i % 2]:
-                rates[pages] = rate(control, start, [Watcher(studio, groups) for _ in range(pages)])
-            ratios.append(rates[3][0] / rates[0][0])
-            shares.append(rates[3][1] - rates[0][1])
+                with watched_by(pages, studio, groups):
+                    rates[pages] = rate(control, start)
+            ratios.append(rates[3] / rates[0])
         low, high = interval_of_median(ratios)
         print(f'cycles per second with three pages / with none: {statistics.median(ratios):.3f} '
               f'(95 % interval of the median of {rounds} rounds: {low:.3f} to {high:.3f})')
-        low, middle, high = statistics.quantiles(shares, n=4)
-        print(f"engine's time for three pages: {100 * middle:.2f} % (half of the rounds: {100 * low:.2f} to {100 * high:.2f} %)")
+        shares = []
+        for pages in (0, 3):
+            with watched_by(pages, studio, groups):
+                shares.append(share(control, start))
+        print(f"engine's time for three pages: {100 * (shares[1] - shares[0]):.2f} %")
         # The age of what a page that needs 80 ms per frame has just drawn, in real time.
         control.do('speed', mode='real')
         slow = Page(studio)
