@@ -334,10 +334,10 @@ std::optional<Span> find_item(const SourceElement& root, std::string_view id) {
     return found ? std::optional(found->whole) : std::nullopt;
 }
 
-std::string item_at(const SourceElement& root, std::size_t at) {
+std::string item_around(const SourceElement& root, Span part) {
     for (const auto& child : root.children)
-        if (is_item(child.name) && child.whole.begin <= at && at < child.whole.end) {
-            const auto inner = item_at(child, at);
+        if (is_item(child.name) && child.whole.begin <= part.begin && part.end <= child.whole.end) {
+            const auto inner = item_around(child, part);
             return inner.empty() ? std::string(child.value("id")) : inner;
         }
     return {};

@@ -42,7 +42,7 @@ bool same_content(const model::System& a, const model::System& b);
 /// The place of the element of the process, group, connection or comment with this id; of the outermost when
 /// `id` is that of the system. Empty when there is none.
 std::optional<Span> find_item(const SourceElement& root, std::string_view id);
-/// The id of the innermost process, group or connection around the byte `at`; empty when there is none.
-std::string item_at(const SourceElement& root, std::size_t at);
+/// The id of the innermost process, group or connection around a part of the text; empty when there is none.
+std::string item_around(const SourceElement& root, Span part);
 
 }  // namespace forage::xml

@@ -505,6 +505,28 @@ class Convert(Cli):
         self.assertEqual([p.name for p in self.here.iterdir()], ["small.iqr"])
 
 
+class Edit(Cli):
+    def test_one_operation_several_and_a_file_of_them(self):
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM)
+        self.assertEqual(self.forage("edit", "small.iqr", '{"do": "add_process", "name": "Q", "id": "q"}', "-o", "more.iqr").stdout, "q\n")
+        self.assertEqual((self.here / "small.iqr").read_text(), SMALL_SYSTEM)
+        (self.here / "grow.json").write_text('[{"do": "add_group", "process": "q", "name": "G", "id": "g"}, {"do": "rename", "id": "g", "name": "H"}]\n')
+        self.assertEqual(self.forage("edit", "more.iqr", "grow.json").stdout, "g\n")
+        self.assertIn("3 groups", self.forage("check", "more.iqr").stdout)
+        before, after = SMALL_SYSTEM.splitlines(), (self.here / "more.iqr").read_text().splitlines()
+        self.assertTrue(set(before) <= set(after))
+
+    def test_mistakes(self):
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM)
+        self.assertIn("there is no operation 'grow'", self.forage("edit", "small.iqr", '[{"do": "grow"}]', status=2).stderr)
+        self.assertIn("not a list in JSON", self.forage("edit", "small.iqr", '[{"do": }]', status=2).stderr)
+        self.assertIn("absent.json", self.forage("edit", "small.iqr", "absent.json", status=2).stderr)
+        self.assertIn("absent.iqr", self.forage("edit", "absent.iqr", "[]", status=2).stderr)
+        self.assertIn("lists the members", self.forage("edit", "small.iqr", '{"do": "rename"}', status=2).stderr)
+        self.assertEqual((self.here / "small.iqr").read_text(), SMALL_SYSTEM)
+        self.assertEqual([p.name for p in self.here.iterdir()], ["small.iqr"])
+
+
 class Others(Cli):
     def test_help_lists_commands_and_options(self):
         text = self.forage("--help").stdout

@@ -1,5 +1,7 @@
 """The studio says of each action how to do it in Python: it gives the same run."""
+import difflib
 import os
+import shlex
 import sys
 
 import pytest
@@ -98,6 +100,101 @@ def test_an_edit_is_repeated_in_python(tmp_path):
         exec(python, {"system": system})
     assert system == forage.System.parse(text, path=file)
     assert system[f"{process.name}/Ear"].params["threshold"] == 0.25
+
+
+def test_changes_of_the_text_and_undo_are_repeated_in_python(tmp_path):
+    file = tmp_path / "edited.iqr"
+    file.write_bytes((SYSTEMS / "cookbook/oscillator.iqr").read_bytes())
+    part = tmp_path / "part.iqrProcess"
+    system = forage.System.read(file)
+    group, process = system.groups[0], system.processes[0]
+    process.save(part)
+    with Studio(os.environ["FORAGE"], str(file)) as studio:
+        page = Page(studio)
+        page.do("pause")
+        actions = page.messages
+        page.do("item_text", item=group.id, text=page.do("item", item=group.id)["text"].replace(group.name, "Écho '1'"))
+        text = page.do("document")["text"]
+        page.do("text_edit", text=text.replace("oscillator", "swing", 1))
+        page.do("text_edit", text=text[:-9])  # is not XML, so nothing does the same
+        page.do("text_edit", text=text)
+        page.do("undo")
+        page.do("undo")
+        page.do("edit", operations=[{"do": "remove", "ids": [group.id]}])
+        page.do("undo")
+        page.do("redo")
+        page.do("undo")
+        page.do("import", file=str(part))
+        page.do("edit", operations=[{"do": "rename", "id": process.id, "name": "Last"}])
+        text = page.do("document")["text"]
+        forms = [(m["python"], m["shell"]) for m in actions if m["type"] == "action"]
+        page.close()
+    assert [python == "" for python, _ in forms].count(True) == 2, forms  # the text that is not XML, and undo back to it
+    for python, shell in forms:
+        exec(python, {"system": system})
+        assert shell.startswith(("forage edit ", "forage convert ") if python else "")
+    # With all that the original requires, as a file may leave that out.
+    system.save(tmp_path / "python.iqr", original=True)
+    forage.System.parse(text, path=file).save(tmp_path / "studio.iqr", original=True)
+    assert (tmp_path / "python.iqr").read_text().splitlines() == (tmp_path / "studio.iqr").read_text().splitlines()
+
+
+def test_edits_of_a_world_are_repeated_in_python_and_the_shell(tmp_path, command, monkeypatch):
+    monkeypatch.setenv("FORAGE_MODEL_PATH", str(SYSTEMS / "worlds/models"))
+    mine, other = tmp_path / "mine.world", tmp_path / "other"
+    other.mkdir()
+    mine.write_bytes((SYSTEMS / "worlds/basic_arena.world").read_bytes())
+    (other / mine.name).write_bytes(mine.read_bytes())
+    with Studio(os.environ["FORAGE"], str(SYSTEMS / "dac_foraging.iqr"), "--world", str(mine)) as studio:
+        page = Page(studio)
+        page.do("pause")
+        kinds = {i["kind"]: i["id"] for i in page.do("world_document")["items"]}
+        for members in (
+            {"operations": [{"do": "add", "kind": "pillar", "x": 0.5, "y": 0.25}, {"do": "add", "kind": "wall", "x": 1, "y": 1, "width": 0.5}]},
+            {"operations": [{"do": "move", "id": kinds["light"], "x": -1, "y": 0.5}], "run": True},
+            {"operations": [{"do": "set", "id": kinds["start"], "property": "name", "value": "Reset_7"}]},
+            {"operations": [{"do": "remove", "id": "Reset_7"}]},
+        ):
+            page.do("world_edit", **members)
+        page.do("undo")
+        page.do("redo")
+        page.do("undo")
+        actions = [m for m in page.messages if m["type"] == "action"]
+        page.do("world_save")
+        page.close()
+    assert len(actions) == 7
+    wanted = mine.read_bytes()
+    mine.write_bytes((other / mine.name).read_bytes())
+    for action in actions:
+        exec(action["python"], {"forage": forage})
+    assert mine.read_bytes() == wanted
+    for action in actions:
+        words = shlex.split(action["shell"])
+        command(*words[1:2], words[2].replace(str(tmp_path), str(other)), *words[3:])
+    assert (other / mine.name).read_bytes() == wanted
+
+
+def test_a_file_is_edited_and_keeps_what_is_not_touched(tmp_path):
+    file, copy = tmp_path / "a.iqr", tmp_path / "b.iqr"
+    text = (SYSTEMS / "cookbook/oscillator.iqr").read_text().replace("<System", "<!-- mine -->\n<System", 1)
+    file.write_text(text)
+    group = forage.System.read(file).groups[0]
+    place = {"do": "place", "id": group.id, "x": 123, "y": 45}
+    assert forage.edit_file(file, place, save_as=copy) == [None]
+    assert file.read_text() == text
+    changed = [line for line in difflib.ndiff(text.splitlines(), copy.read_text().splitlines()) if line[0] != " "]
+    assert len(changed) == 1 and changed[0][0] == "+" and 'x="123"' in changed[0], changed
+    for operations, name, message in (
+        ([place, {"do": "grow"}], file, "there is no operation 'grow'"),
+        ({"do": "text", "id": group.id, "text": "<Group>"}, file, "a.iqr"),
+        (place, tmp_path / "c.txt", "neither a system nor a world"),
+        (place, tmp_path / "none.iqr", "none.iqr"),
+    ):
+        with pytest.raises(forage.InputError, match=message):
+            forage.edit_file(name, operations)
+    with pytest.raises(forage.InputError, match="does not end with .iqr"):
+        forage.edit_file(file, place, save_as=tmp_path / "b.world")
+    assert file.read_text() == text
 
 
 def test_operations_are_carried_out_all_or_none():

@@ -16,6 +16,7 @@
 #include "core/xml/patch.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
+#include "tools/api/sources.h"
 
 namespace forage {
 namespace {
@@ -23,16 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t most_bytes = 64u << 20;  ///< of texts that can be undone
-
-std::string content_of(const std::string& path) {
-    try {
-        return read_file(path);
-    } catch (const FileError& e) {
-        Diagnostics diagnostics;
-        report(e, diagnostics);
-        throw InputError(std::move(diagnostics));
-    }
-}
 
 constexpr std::size_t most_kept = 2u << 20;  ///< of these, in a checkpoint
 
@@ -42,7 +33,7 @@ std::string shown(const std::string& path) { return path.empty() ? "untitled.iqr
 }  // namespace
 
 Document Document::open(const std::string& path, bool lenient) {
-    Document out = unsaved(path, content_of(path), lenient);
+    Document out = unsaved(path, read_input_file(path), lenient);
     out.saved_ = out.text_, out.saved_system_ = out.system_;
     out.stamp_ = stamp_of(path);
     return out;
@@ -53,7 +44,7 @@ Document Document::open_text(const std::string& path, bool lenient) {
     out.path_ = path;
     out.lenient_ = lenient;
     out.system_.id = "system";
-    out.read(content_of(path), Accept::any);
+    out.read(read_input_file(path), Accept::any);
     out.saved_ = out.text_, out.saved_system_ = out.system_;
     out.stamp_ = stamp_of(path);
     return out;
@@ -66,7 +57,7 @@ Document Document::unsaved(std::string path, std::string text, bool lenient) {
     out.read(std::move(text));
     out.saved_system_ = out.system_;
     if (!out.path_.empty() && fs::exists(out.path_)) {
-        out.saved_ = content_of(out.path_);
+        out.saved_ = read_input_file(out.path_);
         out.stamp_ = stamp_of(out.path_);
     }
     return out;
@@ -116,7 +107,8 @@ std::vector<Document::Problem> Document::located(const Diagnostics& diagnostics)
         const bool here = readable_ && d.where.file && d.where.file->path == shown(path_) && line >= 1 &&
                           line <= line_starts.size();
         const auto column = static_cast<std::size_t>(std::max(d.where.column, 1)) - 1;
-        out.push_back({d, here ? xml::item_at(root, line_starts[line - 1] + column) : std::string()});
+        const std::size_t at = here ? line_starts[line - 1] + column : 0;
+        out.push_back({d, here ? xml::item_around(root, {at, at + 1}) : std::string()});
     }
     return out;
 }
@@ -282,7 +274,7 @@ bool Document::changed_outside() const {
 bool Document::reload(Keep keep) {
     if (path_.empty()) throw InputError("the system has no file yet", "save it first");
     const Stamp now = stamp_of(path_);
-    std::string theirs = content_of(path_);
+    std::string theirs = read_input_file(path_);
     const bool changed = [&] {
         if (keep == Keep::mine) return false;
         if (keep == Keep::theirs) {

@@ -11,6 +11,8 @@
 #include "core/run/input_error.h"
 #include "core/types/registry.h"
 #include "core/xml/reader.h"
+#include "core/xml/writer.h"
+#include "tools/api/document.h"
 #include "tools/api/forms.h"
 
 namespace forage::editing {
@@ -24,6 +26,7 @@ struct Operation {
     const json& o;
     System& system;
     const Registry& registry;
+    const std::string& path;
 
     std::string text(const char* member) const { return o.at(member).get<std::string>(); }
     std::string text(const char* member, const char* otherwise) const {
@@ -177,6 +180,12 @@ struct Operation {
         return model::paste(system, *std::move(content), text("process", ""), whole_from(o.at("x")),
                             whole_from(o.at("y")));
     }
+    json replace_text() {
+        auto document = Document::unsaved(path, xml::write_system(system));
+        document.replace_item_text(id(), text("text"), "text");
+        system = document.system();
+        return nullptr;
+    }
     json system_properties() {
         if (const auto* v = member("name")) {
             if (model::trim(v->get_ref<const std::string&>()).empty())
@@ -217,6 +226,7 @@ const std::map<std::string, json (Operation::*)()>& operations_by_name() {
         {"ports", &Operation::ports},
         {"paste", &Operation::paste},
         {"system", &Operation::system_properties},
+        {"text", &Operation::replace_text},
     };
     return operations;
 }
@@ -241,7 +251,7 @@ std::string name_of(const System& system, const std::string& id) {
 
 }  // namespace
 
-json carry_out(const json& operation, System& system, const Registry& registry) {
+json carry_out(const json& operation, System& system, const Registry& registry, const std::string& path) {
     const auto what = operation.at("do").get<std::string>();
     const auto it = operations_by_name().find(what);
     if (it == operations_by_name().end()) {
@@ -249,7 +259,7 @@ json carry_out(const json& operation, System& system, const Registry& registry) 
         for (const auto& [name, function] : operations_by_name()) known.push_back(name);
         throw InputError(fmt::format("there is no operation '{}'", what), suggest(what, known));
     }
-    Operation one{operation, system, registry};
+    Operation one{operation, system, registry, path};
     return (one.*it->second)();
 }
 

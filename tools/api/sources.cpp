@@ -10,6 +10,7 @@
 #include "bug_interface/world/sdf_reader.h"
 #include "core/base/named_file.h"
 #include "core/base/output_files.h"
+#include "core/base/text_file.h"
 #include "core/model/build.h"
 #include "core/model/edit.h"
 #include "core/model/lookup.h"
@@ -178,6 +179,16 @@ std::optional<model::System> read_any(const std::string& path, Diagnostics& diag
 }
 
 }  // namespace
+
+std::string read_input_file(const std::string& path) {
+    try {
+        return read_file(path);
+    } catch (const FileError& e) {
+        Diagnostics diagnostics;
+        report(e, diagnostics);
+        throw InputError(std::move(diagnostics));
+    }
+}
 
 Registry forage_types() {
     Registry registry;

@@ -36,6 +36,8 @@ struct Loaded {
     std::vector<std::string> plugins;  ///< paths of the loaded files
 };
 
+/// The content of a text file. Throws InputError when it cannot be read.
+std::string read_input_file(const std::string& path);
 /// The types that ship with Forage.
 Registry forage_types();
 /// The types that every system may use without a plugin: forage_types() and those of the running program

@@ -4,10 +4,8 @@
 #include <forage/system.h>
 
 #include "core/base/output_files.h"
-#include "core/model/refused.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
-#include "tools/api/operations.h"
 #include "tools/api/saved_run.h"
 #include "tools/api/sources.h"
 #include "tools/api/system_description.h"
@@ -47,25 +45,6 @@ SystemFile parse_system(const std::string& text, const std::string& path, std::v
     Diagnostics diagnostics;
     auto model = xml::parse_system(path, text, diagnostics);
     return make_file(std::move(model), path, std::move(plugins), std::move(diagnostics), warnings);
-}
-
-std::string edit(SystemFile& file, const std::string& operations) {
-    using nlohmann::json;
-    const json all = json::parse(operations, nullptr, false);
-    if (!all.is_array()) throw InputError("the operations are not a list");
-    model::System edited = file.model;
-    json made = json::array();
-    try {
-        for (const auto& o : all) made.push_back(editing::carry_out(o, edited, *file.types));
-    } catch (const model::Refused& e) {
-        throw InputError(e.what(), e.hint());
-    } catch (const std::invalid_argument& e) {
-        throw InputError(e.what());
-    } catch (const json::exception& e) {
-        throw InputError(e.what(), "docs/design/studio-protocol.md lists the members of each operation");
-    }
-    file.model = std::move(edited);
-    return made.dump();
 }
 
 std::string text_of(const SystemFile& file) { return xml::write_system(file.model); }

@@ -39,6 +39,13 @@ struct ConvertOptions {
     bool embed = false, lenient = false;
 };
 
+struct EditOptions {
+    std::string file;        ///< .iqr or .world
+    std::string operations;  ///< JSON, or the name of a file with it
+    std::string output;      ///< empty: the file itself
+    std::vector<std::string> plugins;
+};
+
 struct PlotOptions {
     std::string source;              ///< a directory of results, a recording, or a system
     std::vector<std::string> plots;  ///< the pictures to draw
@@ -121,6 +128,8 @@ int experiment(const ExperimentOptions& options);
 /// Lists the exercises of the tutorial, or runs one.
 int tutorial(const TutorialOptions& options);
 int convert(const ConvertOptions& options);
+/// Carries out operations of the studio in a file, and prints the ids that they make.
+int edit(const EditOptions& options);
 int check(const RunInput& input);
 /// Checks a world, lists its contents and draws it from above.
 int world(const WorldCommand& options);

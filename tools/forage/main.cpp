@@ -74,6 +74,8 @@ int program(int argc, char** argv) {
     add_tutorial(app, tutorial_options);
     add_plot(app, plot_options);
     add_convert(app, convert_options);
+    EditOptions edit_options;
+    add_edit(app, edit_options);
     BuildPluginOptions build_options;
     NewOptions new_options;
     add_new(app, new_options);
@@ -186,6 +188,7 @@ int program(int argc, char** argv) {
         if (app.got_subcommand("world")) return world(world_options);
         if (app.got_subcommand("describe")) return describe(describe_options);
         if (app.got_subcommand("convert")) return convert(convert_options);
+        if (app.got_subcommand("edit")) return edit(edit_options);
         if (app.got_subcommand("view")) return view(directory);
 #ifdef FORAGE_HAS_STUDIO
         if (app.got_subcommand("studio")) return studio(studio_options);

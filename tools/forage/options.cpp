@@ -289,6 +289,24 @@ void add_convert(CLI::App& app, ConvertOptions& o) {
                      "Unknown elements and attributes are warnings, and are not written");
 }
 
+void add_edit(CLI::App& app, EditOptions& o) {
+    auto& command = *app.add_subcommand(
+        "edit", "Edit a system or a world as the studio does; everything else in the file stays as it is");
+    command.footer(
+        "Example:\n"
+        "  forage edit mine.iqr '{\"do\": \"parameter\", \"id\": \"light\", \"name\": \"threshold\", "
+        "\"value\": 0.3}'\n"
+        "docs/design/studio-protocol.md lists all operations, and the studio shows each edit in this form.");
+    command.add_option("FILE", o.file, "System or world (.iqr or .world)")->required()->option_text(" ");
+    command
+        .add_option("OPERATIONS", o.operations,
+                    "JSON: an operation or a list of them, or the name of a file with it")
+        ->required()
+        ->option_text(" ");
+    command.add_option("-o,--output", o.output, "File to write [FILE]")->option_text("FILE");
+    add_plugins(command, o.plugins);
+}
+
 void add_new(CLI::App& app, NewOptions& o) {
     auto& command = *app.add_subcommand(
         "new", "Write the beginning of a system, or a small project with a type of your own");

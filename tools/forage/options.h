@@ -35,6 +35,7 @@ void add_tutorial(CLI::App& app, TutorialOptions& o);
 void add_experiment(CLI::App& app, ExperimentOptions& o);
 void add_plot(CLI::App& app, PlotOptions& o);
 void add_convert(CLI::App& app, ConvertOptions& o);
+void add_edit(CLI::App& app, EditOptions& o);
 void add_new(CLI::App& app, NewOptions& options);
 void add_studio(CLI::App& app, StudioCommand& options);
 void add_build_plugin(CLI::App& app, BuildPluginOptions& o);

@@ -105,14 +105,23 @@ void remove_item(PythonSystem& self, const py::object& what) {
     model::remove(self.model, item.attr("id").cast<std::string>());
 }
 
+/// Operations of an editor, one or several, as JSON.
+std::string as_json(const py::object& operations) {
+    const py::object all = py::isinstance<py::dict>(operations) ? operations : py::list(operations);
+    return py::module_::import("json").attr("dumps")(all).cast<std::string>();
+}
+
+py::object from_json(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
+
 py::object edit_system(PythonSystem& self, const py::object& operations) {
-    const auto json = py::module_::import("json");
-    py::list all;
-    if (py::isinstance<py::dict>(operations))
-        all.append(operations);
-    else
-        all = py::list(operations);
-    return json.attr("loads")(edit(self, json.attr("dumps")(all).cast<std::string>()));
+    return from_json(edit(self, as_json(operations)));
+}
+
+py::object edit_the_file(const Path& path, const py::object& operations, const std::optional<Path>& save_as,
+                         const std::vector<Path>& plugins) {
+    std::vector<std::string> all;
+    for (const auto& p : plugins) all.push_back(p.string());
+    return from_json(edit_file(path.string(), as_json(operations), save_as ? save_as->string() : "", all));
 }
 
 SystemProcess import_file(PythonSystem& self, const Path& path) {
@@ -319,6 +328,19 @@ refused, which raises InputError.)")
                                   state[2].cast<Paths>());
             }));
     system.attr("__hash__") = none;
+    module.def(
+        "edit_file", &edit_the_file, "path"_a, "operations"_a, py::kw_only(), "save_as"_a = none,
+        "plugins"_a = Paths(),
+        R"(Edits the file of a system (.iqr) or a world (.world) as the studio does, and returns what each operation has made: an id, a list of ids, or None.
+
+    forage.edit_file("desert.world", {"do": "move", "id": "light_3", "x": 0.5, "y": -1})
+
+path: the file; everything else in it stays as its author wrote it.
+operations: a dict or a list of them; docs/design/studio-protocol.md lists them, and the studio shows each edit in this form.
+save_as: the file to write instead of `path`.
+plugins: shared objects with types that the system uses, as for open().
+
+All operations are carried out, or none when one is refused, which raises InputError.)");
 }
 
 }  // namespace forage::python

@@ -278,7 +278,12 @@ TEST_CASE("what is added stands between lines that stay, and what is removed goe
         const auto c = model::add_connection(after, g, h, InputKind::inhibitory, "synapseFixedWeight");
         const auto more = patch(text, before, after);
         CHECK(is_subsequence(lines(text), lines(more.text)));
-        CHECK(xml::item_at(xml::scan(more.text), xml::find_item(xml::scan(more.text), c)->begin) == c);
+        const auto root = xml::scan(more.text);
+        const auto of_c = *xml::find_item(root, c), of_h = *xml::find_item(root, h);
+        CHECK(xml::item_around(root, of_c) == c);
+        CHECK(xml::item_around(root, {of_c.begin + 1, of_c.begin + 2}) == c);
+        CHECK(xml::item_around(root, {of_h.begin - 1, of_h.end}) == own->id);
+        CHECK(xml::item_around(root, {of_h.begin, of_c.end}).empty());
 
         auto again = *more.system;
         for (const auto& id : {p, h}) model::remove(again, id);

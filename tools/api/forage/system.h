@@ -39,10 +39,15 @@ SystemFile read_system(const std::string& path, std::vector<std::string> plugins
 SystemFile parse_system(const std::string& text, const std::string& path,
                         std::vector<std::string> plugins = {}, Diagnostics* warnings = nullptr);
 
-/// Carries out the operations of an editor, a JSON list as in the command `edit` of the studio
+/// Carries out an operation of an editor or a list of them, JSON as in the command `edit` of the studio
 /// (docs/design/studio-protocol.md): all of them, or none when one is refused. Returns a JSON list of what
 /// each has made: an id, a list of ids, or null. Throws InputError.
 std::string edit(SystemFile& file, const std::string& operations);
+/// Does the same in a file, a system (.iqr) or a world (.world; the command `world_edit`), and writes it:
+/// into `save_as` unless that is empty. Everything else in the file stays as its author wrote it. Throws
+/// InputError and then writes nothing, and std::runtime_error when the file cannot be written.
+std::string edit_file(const std::string& path, const std::string& operations, const std::string& save_as = {},
+                      const std::vector<std::string>& plugins = {});
 
 /// The text of the system's file.
 std::string text_of(const SystemFile& file);

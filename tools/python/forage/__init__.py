@@ -9,8 +9,8 @@
 """
 
 from ._errors import Diagnostic, InputError, InputWarning, RunError
-from ._forage import (Arborization, DistanceFunction, Film, Group, Manipulation, Parameters, Pattern, Probe, Run, System, __version__, open,
-                      resume)
+from ._forage import (Arborization, DistanceFunction, Film, Group, Manipulation, Parameters, Pattern, Probe, Run, System, __version__, edit_file,
+                      open, resume)
 from ._picture import Picture
 from ._recording import Recording
 
@@ -22,7 +22,7 @@ _TYPES = ("Cells", "Plugin", "Ports", "Synapses", "TypeInfo", "build_plugin", "f
 
 __all__ = ["Arborization", "Cells", "Diagnostic", "DistanceFunction", "Film", "Group", "InputError", "InputWarning", "Manipulation", "Optimum", "Parameters",
            "Pattern", "Picture", "Plugin", "Ports", "Probe", "Recording", "Run", "RunError", "Synapses", "System", "Table", "TypeInfo",
-           "build_plugin", "experiment", "feedback", "input", "module", "neuron", "open", "optimise", "output", "parameter", "resume", "state", "sweep",
+           "build_plugin", "edit_file", "experiment", "feedback", "input", "module", "neuron", "open", "optimise", "output", "parameter", "resume", "state", "sweep",
            "synapse", "types"]
 
 TYPE_CHECKING = False

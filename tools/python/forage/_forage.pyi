@@ -40,6 +40,13 @@ def open(
     observe: typing.Optional[typing.Sequence[str]] = None,
     overwrite: typing.Optional[typing.Sequence[str]] = None,
 ) -> Run: ...
+def edit_file(
+    path: _Path,
+    operations: typing.Union[dict[str, typing.Any], typing.Iterable[dict[str, typing.Any]]],
+    *,
+    save_as: typing.Optional[_Path] = None,
+    plugins: typing.Sequence[_Path] = ...,
+) -> list[typing.Any]: ...
 def resume(state: typing.Union[bytes, _Path, typing.BinaryIO]) -> Run: ...
 
 class Run:

@@ -151,7 +151,7 @@ struct Commands {
     json settings();
     json files();
     /// After a step of the document.
-    json edited(const std::string& title, const std::string& python = {});
+    json edited(const std::string& title, const Equivalent& forms = {});
 
     // ---- the text of the world ----
     Session::WorldText& world_text();
@@ -160,7 +160,9 @@ struct Commands {
     /// Builds the run anew in a world of this text: robots and what they carry stay where they are. Throws
     /// InputError, and leaves the run as it is then.
     void run_in_world(const std::string& text);
-    void tell_other_world(const std::string& title, const std::vector<std::string>& ended);
+    /// Tells the pages of an edit of the world, with which the run goes on in another world or not.
+    void tell_world_edit(const std::string& title, const Equivalent& forms, bool runs,
+                         const std::vector<std::string>& ended);
     json world_document();
     json world_types();
     json world_edit();

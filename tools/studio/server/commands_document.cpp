@@ -163,7 +163,7 @@ json Commands::import_process() {
             made = p.id;
             break;
         }
-    json out = edited(title);
+    json out = edited(title, c.value("link", false) ? Equivalent() : of_import(document().path(), path));
     out["id"] = made;
     return out;
 }

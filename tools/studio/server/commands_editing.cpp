@@ -160,9 +160,9 @@ struct Description {
 
 Document& Commands::document() { return *s.document_; }
 
-json Commands::edited(const std::string& title, const std::string& python) {
+json Commands::edited(const std::string& title, const Equivalent& forms) {
     s.add_undo({nullptr, nullptr, title, true});
-    s.follow_document(title, python);
+    s.follow_document(title, forms);
     s.tell_document();
     return {{"generation", s.generation_}};
 }
@@ -183,14 +183,15 @@ json Commands::edit() {
     const std::string before = document().text();
     const bool step = document().edit(
         [&](model::System& system) {
-            for (const auto& o : operations) ids.push_back(carry_out(o, system, run().registry()));
+            for (const auto& o : operations)
+                ids.push_back(carry_out(o, system, run().registry(), document().path()));
         },
         title, joins_document() ? c.value("merge", "") : "");
-    const auto python = of_edit(operations, ids).python;
+    const auto forms = of_edit(document().path(), operations, ids);
     if (step) {
-        edited(title, python);
+        edited(title, forms);
     } else if (document().text() != before) {  // it joined the step before
-        s.follow_document(title, python);
+        s.follow_document(title, forms);
         s.tell_document();
     }
     return {{"ids", std::move(ids)}, {"generation", s.generation_}};
@@ -272,7 +273,7 @@ json Commands::preview() {
     const auto id = c.at("connection").get<std::string>();
     for (const char* part : {"pattern", "arborization", "attenuation", "delay"})
         if (c.contains(part))
-            carry_out({{"do", part}, {"id", id}, {part, c[part]}}, system, run().registry());
+            carry_out({{"do", part}, {"id", id}, {part, c[part]}}, system, run().registry(), "");
     return describe_synapses(system, id, run().seed(), most_pairs);
 }
 

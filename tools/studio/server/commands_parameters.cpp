@@ -101,7 +101,8 @@ json Commands::back_or_forth(std::vector<Session::Undo>& from, std::vector<Sessi
             const auto ended = s.lost_by_rebuild();
             if (runs) run_in_world(command.at("run"));
             set_world_text(command.at("text"));
-            if (runs) tell_other_world(title, ended);
+            const json replaced = json::array({{{"do", "text"}, {"text", command.at("text")}}});
+            tell_world_edit(title, of_world_edit(world_text().path, replaced), runs, ended);
         } else {
             s.act(command, std::nullopt, told(command, title));
         }

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include "core/base/number.h"
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
+#include "tools/api/world_operations.h"
 #include "tools/studio/server/command_functions.h"
 
 namespace forage::studio {
@@ -42,48 +42,10 @@ json json_of(const bug::WorldItem& i) {
             {"properties", std::move(properties)}};
 }
 
-std::optional<double> number_in(const json& o, const char* name) {
-    const auto it = o.find(name);
-    return it == o.end() || it->is_null() ? std::nullopt : std::optional(it->get<double>());
-}
-
-/// The value of a property as a text.
-std::string value_of(const json& v) {
-    if (v.is_boolean()) return v.get<bool>() ? "1" : "0";
-    return v.is_string()   ? v.get<std::string>()
-           : v.is_number() ? fmt::format("{}", v.get<double>())
-                           : v.dump();
-}
-
-/// Carries out an operation on the text of a world. Returns the ids of what it adds or changes.
-std::vector<std::string> carry_out_in_world(const json& o, std::string& text, bug::ModelTexts& models) {
-    const auto what = o.at("do").get<std::string>();
-    if (what == "add") {
-        bug::NewItem item{.kind = o.at("kind"), .name = o.value("name", ""), .x = o.at("x"), .y = o.at("y")};
-        item.yaw = o.value("yaw", item.yaw), item.width = number_in(o, "width");
-        item.depth = number_in(o, "depth"), item.radius = number_in(o, "radius");
-        item.color = o.value("color", item.color), item.uri = o.value("uri", item.uri);
-        std::string id;
-        text = bug::add_to_world(text, std::move(item), models, id);
-        return {id};
-    }
-    auto id = o.at("id").get<std::string>();
-    if (what == "move") {
-        text = bug::moved_in_world(text, id, o.at("x"), o.at("y"), number_in(o, "yaw"), models);
-    } else if (what == "set") {
-        text =
-            bug::set_in_world(text, id, o.at("property").get<std::string>(), value_of(o.at("value")), models);
-    } else if (what == "unpack") {
-        std::vector<std::string> ids;
-        text = bug::unpacked_in_world(text, id, models, ids);
-        return ids;
-    } else if (what == "remove") {
-        text = bug::removed_from_world(text, id, models);
-        return {};
-    } else {
-        throw InputError(fmt::format("there is no operation '{}'", what), "add, move, set, unpack or remove");
-    }
-    return {id};
+/// The ids that an operation has made: one, several or none.
+json flat(json made) {
+    if (made.is_null()) return json::array();
+    return made.is_array() ? made : json::array({std::move(made)});
 }
 
 }  // namespace
@@ -122,7 +84,7 @@ json Commands::world_edit() {
     bug::ModelTexts models(world_text().path);
     json ids = json::array();
     for (const auto& o : operations)
-        for (auto& id : carry_out_in_world(o, text, models)) ids.push_back(std::move(id));
+        for (auto& id : flat(editing::carry_out_in_world(o, text, models))) ids.push_back(std::move(id));
     Diagnostics diagnostics;
     bug::check_world_text(world_text().path, text, diagnostics);
     throw_errors(diagnostics);
@@ -140,7 +102,7 @@ json Commands::world_edit() {
         for (const auto& o : operations) {
             if (o.at("do") != "move")
                 throw InputError("only what is moved gets into the run at once", "save the world");
-            carry_out_in_world(o, running, models);
+            editing::carry_out_in_world(o, running, models);
         }
         run_in_world(running);
         redo["run"] = running;
@@ -154,7 +116,7 @@ json Commands::world_edit() {
         s.add_undo({undo, redo, title, false});
     s.redo_.clear();
     set_world_text(text);
-    if (runs) tell_other_world(title, ended);
+    tell_world_edit(title, of_world_edit(world_text().path, operations), runs, ended);
     return {{"ids", std::move(ids)}, {"generation", s.generation_}};
 }
 
@@ -176,19 +138,20 @@ void Commands::run_in_world(const std::string& text) {
     throw InputError("the system cannot run in this world", "the run keeps its world");
 }
 
-void Commands::tell_other_world(const std::string& title, const std::vector<std::string>& ended) {
-    ++s.version_;
+void Commands::tell_world_edit(const std::string& title, const Equivalent& forms, bool runs,
+                               const std::vector<std::string>& ended) {
+    if (runs) ++s.version_;
     s.status_due_ = true;
     s.tell({{"type", "action"},
             {"generation", s.generation_},
             {"cycle", run().cycle()},
             {"command", "world_edit"},
             {"title", title},
-            {"shell", ""},
-            {"python", ""},
+            {"shell", forms.shell},
+            {"python", forms.python},
             {"undoable", true},
-            {"ended", ended}});
-    s.tell(s.world_message());
+            {"ended", runs ? ended : std::vector<std::string>()}});
+    if (runs) s.tell(s.world_message());
 }
 
 void Commands::set_world_text(const std::string& text) {

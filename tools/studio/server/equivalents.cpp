@@ -132,16 +132,39 @@ Equivalent of_end(const DrivenGroup& driven, std::uint64_t begun, std::uint64_t 
             variable(driven.group) + ".remove()"};
 }
 
-Equivalent of_edit(const nlohmann::json& operations, const nlohmann::json& ids) {
-    constexpr std::size_t longest = 4000;
-    std::vector<std::string> all;
-    for (std::size_t i = 0; i < operations.size(); ++i) {
-        nlohmann::json o = operations[i];
-        if (ids[i].is_string() && o["do"] != "paste") o["id"] = ids[i];
-        all.push_back(in_python(o));
+namespace {
+
+constexpr std::size_t most_edited = 20'000;  ///< characters of operations
+
+std::string edit_command(const std::string& file, const nlohmann::json& operations) {
+    if (file.empty()) return {};
+    const auto text = operations.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    return fmt::format("forage edit {} {}", quoted(file), quoted(text));
+}
+
+}  // namespace
+
+Equivalent of_edit(const std::string& file, const nlohmann::json& operations, const nlohmann::json& ids) {
+    nlohmann::json all = operations;
+    std::vector<std::string> lines;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (ids[i].is_string() && all[i]["do"] != "paste") all[i]["id"] = ids[i];
+        lines.push_back(in_python(all[i]));
     }
-    auto python = fmt::format("system.edit([{}])", fmt::join(all, ",\n             "));
-    return {"", python.size() > longest ? std::string() : std::move(python)};
+    if (all.dump().size() > most_edited) return {};
+    return {edit_command(file, all), fmt::format("system.edit([{}])", fmt::join(lines, ",\n             "))};
+}
+
+Equivalent of_world_edit(const std::string& file, const nlohmann::json& operations) {
+    if (operations.dump().size() > most_edited) return {};
+    return {edit_command(file, operations),
+            fmt::format("forage.edit_file({}, {})", literal(file), in_python(operations))};
+}
+
+Equivalent of_import(const std::string& file, const std::string& from) {
+    const auto q = quoted(file);
+    return {file.empty() ? "" : fmt::format("forage convert {} {} --import {}", q, q, quoted(from)),
+            fmt::format("system.import_process({})", literal(from))};
 }
 
 Equivalent of_move(const std::string& name, double x, double y, double heading) {

@@ -18,6 +18,7 @@
 #include "core/run/run_spec.h"
 #include "tools/api/document.h"
 #include "tools/studio/server/client.h"
+#include "tools/studio/server/equivalents.h"
 #include "tools/studio/server/history.h"
 #include "tools/studio/server/recovery.h"
 #include "tools/studio/server/settings.h"
@@ -167,7 +168,8 @@ class Session {
     /// Opens another system, and tells the pages. Throws InputError, and leaves everything as it is then.
     void open_document(const RunInput& input);
     /// Makes the run what the document says, as far as that can run, and tells the pages.
-    void follow_document(const std::string& title, const std::string& python = {});
+    /// Without `forms`, they are made from the difference of the texts.
+    void follow_document(const std::string& title, Equivalent forms = {});
     /// Builds the run anew; groups and connections that did not change keep their states. Returns false, with
     /// the run as it was, when the system cannot run.
     /// At cycle 0 it begins anew, unless it `goes_on` there, too.
@@ -211,6 +213,7 @@ class Session {
     Changes changed_;
     std::optional<Sampler> sampler_;
     std::optional<Document> document_;
+    std::string told_text_;  ///< of the document, as pages were last told, when it could be read
     std::optional<WorldText> world_text_;
     model::System built_;                      ///< the document's system that runs
     std::vector<model::System> others_;        ///< systems that run beside it

@@ -11,9 +11,9 @@
 #include "core/xml/writer.h"
 #include "tools/api/describe_json.h"
 #include "tools/api/sources.h"
+#include "tools/api/text_operation.h"
 #include "tools/studio/server/backups.h"
 #include "tools/studio/server/document_problems.h"
-#include "tools/studio/server/equivalents.h"
 #include "tools/studio/server/session.h"
 
 namespace forage::studio {
@@ -51,6 +51,7 @@ void Session::begin_document(const RunInput& input) {
     }
     world_text_.reset();
     built_ = document_->system();
+    told_text_ = document_->readable() ? document_->text() : std::string();
     current_ = true, outside_ = false;
     problems_ = document_->problems(run_->registry(), run_->environment());
     changed_.clear(), undo_.clear(), redo_.clear();
@@ -87,6 +88,7 @@ void Session::open_with_mistakes(const RunInput& input, const Diagnostics& found
     }
     begin_document(nothing);
     document_ = std::move(document);
+    told_text_.clear();
     current_ = false;
     problems_ = document_->located(found);
     wanted_ = input, mistakes_ = found;
@@ -178,6 +180,7 @@ json Session::document_message() const {
 }
 
 void Session::tell_document() {
+    if (document_->readable()) told_text_ = document_->text();
     status_due_ = true;
     tell(document_message());
 }
@@ -212,7 +215,11 @@ bool Session::set_in_document(const std::vector<std::string>& assignments, const
 
 void Session::step_document(bool back) { back ? document_->undo() : document_->redo(); }
 
-void Session::follow_document(const std::string& title, const std::string& python) {
+void Session::follow_document(const std::string& title, Equivalent forms) {
+    if (forms.python.empty() && document_->readable() && !told_text_.empty()) {
+        const auto operation = editing::text_operation(told_text_, document_->text());
+        forms = of_edit(document_->path(), json::array({operation}), json::array({nullptr}));
+    }
     const auto& now = document_->system();
     const auto changes = model::parameter_changes(built_, now, run_->registry());
     const auto before = generation_;
@@ -251,8 +258,8 @@ void Session::follow_document(const std::string& title, const std::string& pytho
               {"cycle", run_->cycle()},
               {"command", "edit"},
               {"title", title},
-              {"shell", ""},
-              {"python", python},
+              {"shell", forms.shell},
+              {"python", forms.python},
               {"undoable", true},
               {"ended", std::move(ended)}});
     }

@@ -1,0 +1,18 @@
+// The operations of an editor on a world, as JSON: docs/design/studio-protocol.md lists them.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "bug_interface/world/model_texts.h"
+
+namespace forage::editing {
+
+using nlohmann::json;
+
+/// Carries out an operation on the text of a world. Returns the id of what it adds or changes, a list of
+/// them, or null. Throws InputError, std::invalid_argument, and json::exception for members that are missing.
+json carry_out_in_world(const json& operation, std::string& text, bug::ModelTexts& models);
+
+}  // namespace forage::editing
