@@ -1,0 +1,148 @@
+// What clicks and keys in a pane of the diagram do to its page.
+import { draftComment, newSize } from '../edit/comments';
+import { connect, edit } from '../edit/operations';
+import { removeItems } from '../edit/menus';
+import { apart, freshName } from '../edit/places';
+import { tools } from '../edit/tool.svelte';
+import type { Operation } from '../protocol/editing';
+import type { Process } from '../protocol/messages';
+import { actions } from '../stores/actions.svelte';
+import { frame } from '../stores/frame.svelte';
+import { model } from '../stores/model.svelte';
+import { selection } from '../stores/selection.svelte';
+import { boxSize, clickedAnchor, facingAnchor, inside, scale, toFile, type PageBox } from './diagram';
+import type { Point } from './line';
+import type { StageApi } from './Stage.svelte';
+
+/** The pane as it is now; `process` is null on the page of the system. */
+export interface Pane {
+  readonly uid: string;
+  readonly process: Process | null;
+  readonly boxes: Map<string, PageBox>;
+  readonly stage: StageApi | null;
+  readonly canvas: HTMLElement | undefined;
+}
+
+export class PaneEdits {
+  /** When a tool was used last: the second click of a double click does nothing more. */
+  private used = 0;
+
+  constructor(private readonly pane: Pane) {}
+
+  /** Adds a process or a group, and lets its name be written. */
+  async add(at?: Point): Promise<void> {
+    const p = at ?? this.freePlace();
+    const { process } = this.pane;
+    const [x, y] = toFile({ x: p.x - boxSize / 2, y: p.y - boxSize / 2 });
+    const made = process
+      ? await edit({ do: 'add_group', process: process.id, name: freshName('Group', process.groups.map((g) => g.name)), x, y })
+      : await edit({ do: 'add_process', name: freshName('Process', model.processes.map((q) => q.name)), x, y });
+    tools.leave();
+    const id = made?.[0];
+    if (!id) return;
+    selection.select(id);
+    tools.renaming = id;
+  }
+
+  /** Adds a comment, and lets its text be written. */
+  comment(at?: Point): void {
+    const p = at ?? this.freePlace();
+    tools.current = 'select';
+    draftComment(this.pane.uid, this.pane.process?.id ?? null, toFile(at ? p : { x: p.x - (newSize.width * scale) / 2, y: p.y - (newSize.height * scale) / 2 }));
+  }
+
+  /** Writes where these boxes stand. Returns whether they may stand there. */
+  async place(ids: string[], merge?: string): Promise<boolean> {
+    const operations = ids.flatMap((id): Operation[] => {
+      const b = this.pane.boxes.get(id);
+      if (!b) return [];
+      const [x, y] = toFile(b.box);
+      return b.phantom ? [{ do: 'phantom', process: this.pane.process?.id ?? null, group: id, x, y }] : [{ do: 'place', id, x, y }];
+    });
+    if (!operations.length) return true;
+    return !!(await edit(operations, operations.length > 1 ? `Move ${operations.length} items` : undefined, merge));
+  }
+
+  /** Makes comments wider and higher, by units of the file. */
+  grow(dx: number, dy: number, ids: string[]): void {
+    const comments = ids.flatMap((id) => {
+      const b = this.pane.boxes.get(id)!;
+      return 'text' in b.item ? [{ do: 'comment', id, width: Math.max(10, b.item.icon.width + dx), height: Math.max(10, b.item.icon.height + dy) }] : [];
+    });
+    if (comments.length) void edit(comments, 'Resize a comment', 'sizes');
+  }
+
+  /** Those without phantoms, whose groups belong to other pages. */
+  removable(ids: string[]): string[] {
+    return ids.filter((id) => !this.pane.boxes.get(id)?.phantom);
+  }
+
+  remove(ids: string[]): void {
+    if (this.removable(ids).length) void removeItems(this.removable(ids));
+    else actions.tell('info', 'A phantom stands for a group of another process: delete the group, or the connection, there.');
+  }
+
+  /** A place in the file for what is pasted, so that it does not lie on what is there. */
+  besides(at: Point): [number, number] {
+    return apart(toFile(at), [...this.pane.boxes.values()].filter((b) => !b.comment).map((b) => toFile(b.box)));
+  }
+
+  /** The free place for a box that is the nearest to the middle of what is seen. */
+  freePlace(): Point {
+    const all = [...this.pane.boxes.values()];
+    const seen = this.pane.canvas!.getBoundingClientRect();
+    const middle = this.pane.stage!.toPage({ clientX: seen.left + seen.width / 2, clientY: seen.top + seen.height / 2 });
+    for (let ring = 0; ; ring++)
+      for (let row = -ring; row <= ring; row++)
+        for (let column = -ring; column <= ring; column++) {
+          const p = { x: middle.x + 160 * column, y: middle.y + 160 * row };
+          if (Math.max(Math.abs(row), Math.abs(column)) === ring && !all.some((b) => inside(b.box, p, boxSize / 2 + 20))) return p;
+        }
+  }
+
+  /** A click with the tool that is in hand. */
+  click(e: MouseEvent): void {
+    const { stage, process, boxes } = this.pane, target = e.target as Element;
+    if (tools.current === 'select' || !stage || !target.closest('.svelte-flow') || target.closest('.svelte-flow__panel, .vertex')) return;
+    e.stopPropagation();
+    e.preventDefault();
+    this.used = performance.now();
+    const p = stage.toPage(e);
+    if (tools.current === 'add') return void this.add(p);
+    if (tools.current === 'comment') return this.comment(p);
+    const box = [...boxes.values()].reverse().find((b) => !b.comment && inside(b.box, p, 6));
+    const here = process?.id ?? null;
+    if (!box) {
+      if (tools.pending && tools.pending.page === here) tools.pending = { ...tools.pending, vertices: [...tools.pending.vertices, p] };
+    } else if (!process) actions.tell('info', 'Connections lead from group to group: open the page of a process.');
+    else if (!tools.pending) tools.pending = { source: box.id, anchor: box.phantom ? null : clickedAnchor(box.box, p), page: process.id, vertices: [] };
+    else this.connect(box, p);
+  }
+
+  /** Ends the pending line at a box. */
+  private connect(box: PageBox, p: Point): void {
+    const { source, page, anchor, vertices } = tools.pending!, kind = tools.current as 'excitatory' | 'inhibitory' | 'modulatory';
+    tools.used();
+    const number = box.phantom ? null : clickedAnchor(box.box, p);
+    // Across processes, the vertices belong to the page on which they were clicked.
+    const from = page === this.pane.process?.id ? this.pane.boxes.get(source) : undefined;
+    const list = from?.phantom ? 'target_vertices' : !from || box.phantom ? 'source_vertices' : 'vertices';
+    void connect({
+      source,
+      target: box.id,
+      kind,
+      // From another page a line comes from above.
+      source_anchor: anchor ?? (from && !from.phantom ? facingAnchor(from.box, vertices[0] ?? box.box) : 1),
+      target_anchor: number ?? (from && !box.phantom ? facingAnchor(box.box, vertices[vertices.length - 1] ?? from.box) : 1),
+      [list]: vertices.map(toFile),
+    }).then((id) => id && !frame.narrow && selection.select(id));
+  }
+
+  /** A double click on the canvas writes a comment. Beside a box, it was the box that was meant. */
+  doubleClick(e: MouseEvent): void {
+    const { stage, boxes } = this.pane;
+    if (tools.current !== 'select' || performance.now() - this.used < 600 || !stage || !(e.target as Element).classList.contains('svelte-flow__pane')) return;
+    const p = stage.toPage(e);
+    if (![...boxes.values()].some((b) => !b.comment && inside(b.box, p, 12))) this.comment(p);
+  }
+}
