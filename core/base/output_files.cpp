@@ -92,8 +92,10 @@ void flush_directory(const std::string& path) {
 }  // namespace
 
 void write_file(const std::string& path, std::string_view text) {
-    write_partial(path, text);
-    finish(path);
+    namespace fs = std::filesystem;
+    const std::string file = fs::is_symlink(path) ? fs::weakly_canonical(path).string() : path;
+    write_partial(file, text);
+    finish(file);
 }
 
 void write_durably(const std::string& path, std::string_view text, const std::string& keep) {

@@ -21,7 +21,8 @@ std::string partial(const std::string& path);
 void finish(const std::string& path);
 /// Removes the files with names of partial() that a killed program left in a directory. Returns their names.
 std::vector<std::string> remove_unfinished(const std::string& directory);
-/// Writes `text` to partial(path) and renames it to `path`. Throws std::runtime_error.
+/// Writes `text` to partial(path) and renames it to `path`; a symbolic link stays one. Throws
+/// std::runtime_error.
 void write_file(const std::string& path, std::string_view text);
 /// Writes `text` to `path` as write_file() does, and makes sure that the file survives a power cut. An
 /// existing file is renamed to `keep`, unless that is empty.

@@ -516,13 +516,46 @@ class Edit(Cli):
         before, after = SMALL_SYSTEM.splitlines(), (self.here / "more.iqr").read_text().splitlines()
         self.assertTrue(set(before) <= set(after))
 
+    def test_what_is_wrong_since_the_edit_is_a_warning_and_links_stay_links(self):
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM)
+        (self.here / "link.iqr").symlink_to("small.iqr")
+        said = self.forage("edit", "link.iqr", '{"do": "add_group", "process": "p", "name": "N", "neuron": "neuronNone", "id": "n"}')
+        self.assertRegex(said.stderr, r"warning: .*neuronNone")
+        self.assertEqual(said.stdout, "n\n")
+        self.assertTrue((self.here / "link.iqr").is_symlink())
+        self.assertIn("neuronNone", (self.here / "small.iqr").read_text())
+        world = self.here / "small.world"
+        world.write_bytes((PROJECT / "systems/worlds/two_bugs.world").read_bytes())
+        (self.here / "link.world").symlink_to("small.world")
+        shutil.copytree(PROJECT / "systems/worlds/models", self.here / "models")
+        self.forage("edit", "link.world", '{"do": "add", "kind": "pillar", "x": 0, "y": 0}')
+        self.assertTrue((self.here / "link.world").is_symlink())
+        self.assertIn("Pillar", world.read_text())
+
+    def test_the_text_of_an_item_is_written_as_it_is(self):
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM)
+        whole = SMALL_SYSTEM.replace("<Process", "<!-- why -->\n  <Process", 1)
+        self.forage("edit", "small.iqr", json.dumps([{"do": "text", "id": "system", "text": whole}, {"do": "system", "author": "Ada"}]))
+        self.assertIn("<!-- why -->\n  <Process", (self.here / "small.iqr").read_text())
+        self.assertIn('author="Ada"', (self.here / "small.iqr").read_text())
+
     def test_mistakes(self):
         (self.here / "small.iqr").write_text(SMALL_SYSTEM)
         self.assertIn("there is no operation 'grow'", self.forage("edit", "small.iqr", '[{"do": "grow"}]', status=2).stderr)
-        self.assertIn("not a list in JSON", self.forage("edit", "small.iqr", '[{"do": }]', status=2).stderr)
+        self.assertIn("error: this is not JSON", self.forage("edit", "small.iqr", '[{"do": }]', status=2).stderr)
         self.assertIn("absent.json", self.forage("edit", "small.iqr", "absent.json", status=2).stderr)
         self.assertIn("absent.iqr", self.forage("edit", "absent.iqr", "[]", status=2).stderr)
         self.assertIn("lists the members", self.forage("edit", "small.iqr", '{"do": "rename"}', status=2).stderr)
+        self.assertIn("operation 2: ", self.forage("edit", "small.iqr", '[{"do": "add_process", "name": "Q"}, {"do": "rename"}]', status=2).stderr)
+        self.assertIn("control character", self.forage("edit", "small.iqr", r'{"do": "system", "author": "a\u0000b"}', status=2).stderr)
+        self.assertIn("error: ", self.forage("edit", "small.iqr", "[]", "-o", "small.iqr/x.iqr", status=2).stderr)
+        self.assertIn("does not end with .iqr", self.forage("edit", "small.iqr", "[]", "-o", "small.world", status=2).stderr)
+        with tempfile.TemporaryDirectory() as folder:
+            operations = pathlib.Path(folder) / "operations.json"
+            operations.write_text('[{"do": "remove",\n "ids": []]')
+            self.assertIn(f"{operations}:2:11: error: ", self.forage("edit", "small.iqr", operations, status=2).stderr)
+            operations.write_text('{"do": "parameter", "id": "a", "name": "threshold", "value": ' + "[" * 200000 + "]" * 200000 + "}")
+            self.assertIn("too many lists", self.forage("edit", "small.iqr", operations, status=2).stderr)
         self.assertEqual((self.here / "small.iqr").read_text(), SMALL_SYSTEM)
         self.assertEqual([p.name for p in self.here.iterdir()], ["small.iqr"])
 

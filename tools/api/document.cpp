@@ -246,9 +246,7 @@ void Document::save(const std::string& path, const Registry& registry, bool over
         model::move_files(moved, path_, to, registry);
         if (!xml::same_content(moved, system_)) text = xml::patch(to, text_, system_, moved, lenient_).text;
     }
-    // A name that is a link stays one.
-    const std::string file = fs::is_symlink(to) ? fs::weakly_canonical(to).string() : to;
-    write_file(file, text);  // a failure leaves the document as it was
+    write_file(to, text);  // a failure leaves the document as it was
     if (text != text_) push(std::exchange(text_, std::move(text)), "save as " + to, {});
     const bool renamed = to != path_;
     path_ = to;

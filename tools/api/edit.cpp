@@ -1,12 +1,14 @@
+#include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 #include <forage/system.h>
 
-#include "bug_interface/world/sdf_edit.h"
 #include "core/base/output_files.h"
 #include "core/model/refused.h"
 #include "tools/api/document.h"
+#include "tools/api/json_text.h"
 #include "tools/api/operations.h"
 #include "tools/api/sources.h"
 #include "tools/api/world_operations.h"
@@ -16,73 +18,119 @@ namespace {
 
 using nlohmann::json;
 
-/// What `carry_out` returns for each operation. Throws InputError for all that it refuses.
-template <class CarryOut>
-json carry_out_all(const std::string& operations, CarryOut carry_out) {
-    json all = json::parse(operations, nullptr, false);
-    if (all.is_object()) all = json::array({std::move(all)});
-    if (!all.is_array()) throw InputError("the operations are not a list in JSON");
-    json made = json::array();
-    try {
-        for (const auto& o : all) made.push_back(carry_out(o));
-    } catch (const model::Refused& e) {
-        throw InputError(e.what(), e.hint());
-    } catch (const std::invalid_argument& e) {
-        throw InputError(e.what());
-    } catch (const json::exception& e) {
-        throw InputError(e.what(), "docs/design/studio-protocol.md lists the members of each operation");
-    }
-    return made;
+/// One operation as a list of one.
+json list_of(const std::string& operations) {
+    json all = parse_json(operations);
+    if (all.is_object()) return json::array({std::move(all)});
+    if (!all.is_array()) throw InputError("the operations are not a list");
+    return all;
 }
 
-json edit_world(const std::string& path, const std::string& operations, const std::string& save_as) {
+/// The result of `carry_out`, which carries out the operation with this number, from 0. Throws InputError for
+/// all that it refuses.
+template <class CarryOut>
+json attempt(const json& all, std::size_t number, CarryOut carry_out) {
+    const auto which = all.size() > 1 ? fmt::format("operation {}: ", number + 1) : std::string();
+    if (!all[number].is_object())
+        throw InputError(which + "an operation is an object", R"({"do": "rename", "id": "a", "name": "B"})");
+    try {
+        return carry_out(all[number]);
+    } catch (const model::Refused& e) {
+        throw InputError(which + e.what(), e.hint());
+    } catch (const std::invalid_argument& e) {
+        throw InputError(which + e.what());
+    } catch (const json::exception& e) {
+        std::string text = e.what();  // "[json.exception.out_of_range.403] key 'do' not found"
+        if (const auto end = text.find("] "); end != text.npos) text.erase(0, end + 2);
+        throw InputError(which + text, "docs/design/studio-protocol.md lists the members of each operation");
+    }
+}
+
+/// The mistakes that an edit has made, as warnings.
+void add_new_problems(const std::vector<Document::Problem>& before,
+                      const std::vector<Document::Problem>& after, Diagnostics& warnings) {
+    std::set<std::string> known;
+    for (const auto& p : before) known.insert(p.diagnostic.message);
+    for (auto p : after) {
+        if (known.contains(p.diagnostic.message)) continue;
+        p.diagnostic.severity = Severity::warning;
+        warnings.add(std::move(p.diagnostic));
+    }
+}
+
+json edit_world(const std::string& path, const json& operations, const std::string& save_as) {
     std::string text = read_input_file(path);
+    json made = json::array();
     bug::ModelTexts models(path);
-    json made = carry_out_all(operations,
-                              [&](const json& o) { return editing::carry_out_in_world(o, text, models); });
-    Diagnostics diagnostics;
-    bug::check_world_text(save_as, text, diagnostics);
-    throw_errors(diagnostics);
+    for (std::size_t i = 0; i < operations.size(); ++i)
+        made.push_back(attempt(operations, i,
+                               [&](const json& o) { return editing::carry_out_in_world(o, text, models); }));
+    editing::check_world(save_as, text);
     write_file(save_as, text);
     return made;
 }
 
-json edit_system(const std::string& path, const std::string& operations, const std::string& save_as,
-                 const std::vector<std::string>& plugins) {
+json edit_system(const std::string& path, const json& operations, const std::string& save_as,
+                 const std::vector<std::string>& plugins, Diagnostics& warnings) {
     auto document = Document::open(path);
     Diagnostics diagnostics;
     const auto types = known_types(load_plugins(plugins, path, diagnostics));
     throw_errors(diagnostics);
-    json made;
-    document.edit(
-        [&](model::System& system) {
-            made = carry_out_all(operations,
-                                 [&](const json& o) { return editing::carry_out(o, system, types, path); });
-        },
-        "edit");
+    const auto before = document.problems(types);
+    json made = json::array();
+    const auto is_text = [](const json& o) { return o.is_object() && o.value("do", json()) == "text"; };
+    const auto replace_text = [&](const json& o) {
+        const auto id = o.at("id").get<std::string>();
+        document.replace_item_text(id == "system" ? document.system().id : id,
+                                   o.at("text").get<std::string>(), "text");
+        return json();
+    };
+    while (made.size() < operations.size()) {
+        if (is_text(operations[made.size()])) {  // as its author wrote it, not as the model of it is written
+            made.push_back(attempt(operations, made.size(), replace_text));
+            continue;
+        }
+        document.edit(
+            [&](model::System& system) {
+                while (made.size() < operations.size() && !is_text(operations[made.size()]))
+                    made.push_back(attempt(operations, made.size(), [&](const json& o) {
+                        return editing::carry_out(o, system, types, path);
+                    }));
+            },
+            "edit");
+    }
     document.save(save_as == path ? std::string() : save_as, types, true);
+    add_new_problems(before, document.problems(types), warnings);
     return made;
 }
 
 }  // namespace
 
 std::string edit(SystemFile& file, const std::string& operations) {
+    const json all = list_of(operations);
     model::System edited = file.model;
-    const json made = carry_out_all(
-        operations, [&](const json& o) { return editing::carry_out(o, edited, *file.types, file.path); });
+    json made = json::array();
+    for (std::size_t i = 0; i < all.size(); ++i)
+        made.push_back(attempt(
+            all, i, [&](const json& o) { return editing::carry_out(o, edited, *file.types, file.path); }));
     file.model = std::move(edited);
     return made.dump();
 }
 
 std::string edit_file(const std::string& path, const std::string& operations, const std::string& save_as,
-                      const std::vector<std::string>& plugins) {
+                      const std::vector<std::string>& plugins, Diagnostics* warnings) {
     const auto kind = std::filesystem::path(path).extension();
     const std::string& to = save_as.empty() ? path : save_as;
+    if (kind != ".world" && kind != ".iqr" && kind != ".xml")
+        throw InputError(fmt::format("'{}' is neither a system nor a world", path), ".iqr or .world");
     if (std::filesystem::path(to).extension() != kind)
         throw InputError(fmt::format("'{}' does not end with {}, as '{}' does", to, kind.string(), path));
-    if (kind == ".world") return edit_world(path, operations, to).dump();
-    if (kind == ".iqr") return edit_system(path, operations, to, plugins).dump();
-    throw InputError(fmt::format("'{}' is neither a system nor a world", path), ".iqr or .world");
+    const json all = list_of(operations);
+    if (kind == ".world") return edit_world(path, all, to).dump();
+    Diagnostics found;
+    auto made = edit_system(path, all, to, plugins, found).dump();
+    if (warnings) *warnings = std::move(found);
+    return made;
 }
 
 }  // namespace forage

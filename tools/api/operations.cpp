@@ -10,9 +10,9 @@
 #include "core/model/operations.h"
 #include "core/run/input_error.h"
 #include "core/types/registry.h"
+#include "core/xml/patch.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
-#include "tools/api/document.h"
 #include "tools/api/forms.h"
 
 namespace forage::editing {
@@ -181,10 +181,23 @@ struct Operation {
                             whole_from(o.at("y")));
     }
     json replace_text() {
-        auto document = Document::unsaved(path, xml::write_system(system));
-        document.replace_item_text(id(), text("text"), "text");
-        system = document.system();
+        const auto all = xml::write_system(system);
+        const auto place = xml::find_item(xml::scan(all), id());
+        if (!place) throw InputError(fmt::format("there is no item with the id '{}' in this file", id()));
+        Diagnostics diagnostics;
+        const bool whole = id() == system.id;
+        auto read = xml::parse_system(
+            path, whole ? text("text") : all.substr(0, place->begin) + text("text") + all.substr(place->end),
+            diagnostics);
+        if (!read) throw InputError(std::move(diagnostics));
+        system = *std::move(read);
         return nullptr;
+    }
+    json import() {
+        Diagnostics diagnostics;
+        auto file = xml::read_process(text("file"), diagnostics);
+        throw_errors(diagnostics);
+        return import_process(system, std::move(*file));
     }
     json system_properties() {
         if (const auto* v = member("name")) {
@@ -225,10 +238,21 @@ const std::map<std::string, json (Operation::*)()>& operations_by_name() {
         {"delay", &Operation::delay},
         {"ports", &Operation::ports},
         {"paste", &Operation::paste},
+        {"import", &Operation::import},
         {"system", &Operation::system_properties},
         {"text", &Operation::replace_text},
     };
     return operations;
+}
+
+/// XML cannot hold them.
+void refuse_control_characters(const json& value) {
+    if (value.is_string())
+        for (const char c : value.get_ref<const std::string&>())
+            if (static_cast<unsigned char>(c) < ' ' && c != '\t' && c != '\n' && c != '\r')
+                throw InputError("a text has a control character, which XML cannot hold");
+    if (value.is_structured())
+        for (const auto& each : value) refuse_control_characters(each);
 }
 
 std::string name_of(const System& system, const std::string& id) {
@@ -252,6 +276,7 @@ std::string name_of(const System& system, const std::string& id) {
 }  // namespace
 
 json carry_out(const json& operation, System& system, const Registry& registry, const std::string& path) {
+    refuse_control_characters(operation);
     const auto what = operation.at("do").get<std::string>();
     const auto it = operations_by_name().find(what);
     if (it == operations_by_name().end()) {

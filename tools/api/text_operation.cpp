@@ -17,8 +17,10 @@ nlohmann::json text_operation(const std::string& before, const std::string& afte
     const auto root = xml::scan(before);
     // An element around them begins before them, and ends after them.
     const auto id = xml::item_around(root, {part.begin - std::min<std::size_t>(part.begin, 1), part.end + 1});
-    const auto place = id.empty() ? std::nullopt : xml::find_item(root, id);
-    if (!place) return {{"do", "text"}, {"id", "system"}, {"text", after}};
+    const auto place = id.empty() || id == "system" ? std::nullopt : xml::find_item(root, id);
+    // Another item with the same id may have been found.
+    if (!place || part.begin <= place->begin || part.end >= place->end)
+        return {{"do", "text"}, {"id", "system"}, {"text", after}};
     // What is before and after the part is the same in both texts.
     const std::size_t end = after.size() - (before.size() - place->end);
     return {{"do", "text"}, {"id", id}, {"text", after.substr(place->begin, end - place->begin)}};

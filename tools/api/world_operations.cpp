@@ -59,4 +59,10 @@ json carry_out_in_world(const json& o, std::string& text, bug::ModelTexts& model
     return id;
 }
 
+void check_world(const std::string& path, const std::string& text) {
+    Diagnostics diagnostics;
+    bug::check_world_text(path, text, diagnostics);
+    throw_errors(diagnostics);
+}
+
 }  // namespace forage::editing

@@ -15,4 +15,7 @@ using nlohmann::json;
 /// them, or null. Throws InputError, std::invalid_argument, and json::exception for members that are missing.
 json carry_out_in_world(const json& operation, std::string& text, bug::ModelTexts& models);
 
+/// Throws InputError when a text of the file `path` is not one of a world.
+void check_world(const std::string& path, const std::string& text);
+
 }  // namespace forage::editing

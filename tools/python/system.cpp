@@ -121,7 +121,11 @@ py::object edit_the_file(const Path& path, const py::object& operations, const s
                          const std::vector<Path>& plugins) {
     std::vector<std::string> all;
     for (const auto& p : plugins) all.push_back(p.string());
-    return from_json(edit_file(path.string(), as_json(operations), save_as ? save_as->string() : "", all));
+    Diagnostics warnings;
+    auto made =
+        edit_file(path.string(), as_json(operations), save_as ? save_as->string() : "", all, &warnings);
+    warn(warnings);
+    return from_json(made);
 }
 
 SystemProcess import_file(PythonSystem& self, const Path& path) {
@@ -340,7 +344,7 @@ operations: a dict or a list of them; docs/design/studio-protocol.md lists them,
 save_as: the file to write instead of `path`.
 plugins: shared objects with types that the system uses, as for open().
 
-All operations are carried out, or none when one is refused, which raises InputError.)");
+All operations are carried out, or none when one is refused, which raises InputError. Issues InputWarning for what is wrong with a system only since the edit.)");
 }
 
 }  // namespace forage::python

@@ -38,8 +38,21 @@ TEST_CASE("two texts differ by the operation on the innermost item") {
     CHECK(change("name=\"S\"", "name=\"T\"") == "system");
     CHECK(change("  </Process>\n", "  </Process><Process id=\"q\" name=\"P\"/>\n") == "system");
     CHECK(change("<System", "<!-- x --><System") == "system");
+    CHECK(change("<Process id=\"p\"", "<Process id=\"p\" path=\"x\"") == "p");
     CHECK(change("</System>\n", "</System>") == "system");
     CHECK(change("\n", "\n") == "system");  // the same text
+    // Two items with one id, and an item with the id that stands for the whole system.
+    const std::string twice =
+        "<System id=\"s\"><Process id=\"p\"><Group id=\"a\"/><Group id=\"a\" name=\"B\"/></Process></System>";
+    auto other = twice;
+    other.replace(other.find("\"a\" name"), 3, "\"b\"");
+    CHECK(editing::text_operation(twice, other) ==
+          nlohmann::json{{"do", "text"}, {"id", "system"}, {"text", other}});
+    const std::string named = "<System id=\"s\"><Process id=\"system\" name=\"A\"/></System>";
+    CHECK(editing::text_operation(named,
+                                  "<System id=\"s\"><Process id=\"system\" name=\"B\"/></System>")["text"]
+              .get<std::string>()
+              .starts_with("<System"));
 }
 
 }  // namespace

@@ -44,10 +44,11 @@ SystemFile parse_system(const std::string& text, const std::string& path,
 /// each has made: an id, a list of ids, or null. Throws InputError.
 std::string edit(SystemFile& file, const std::string& operations);
 /// Does the same in a file, a system (.iqr) or a world (.world; the command `world_edit`), and writes it:
-/// into `save_as` unless that is empty. Everything else in the file stays as its author wrote it. Throws
-/// InputError and then writes nothing, and std::runtime_error when the file cannot be written.
+/// into `save_as` unless that is empty. Everything else in the file stays as its author wrote it. What is
+/// wrong with a system only since the edit gets into `warnings`, if it is not null. Throws InputError and
+/// then writes nothing, and std::runtime_error when the file cannot be written.
 std::string edit_file(const std::string& path, const std::string& operations, const std::string& save_as = {},
-                      const std::vector<std::string>& plugins = {});
+                      const std::vector<std::string>& plugins = {}, Diagnostics* warnings = nullptr);
 
 /// The text of the system's file.
 std::string text_of(const SystemFile& file);

@@ -163,7 +163,11 @@ json Commands::import_process() {
             made = p.id;
             break;
         }
-    json out = edited(title, c.value("link", false) ? Equivalent() : of_import(document().path(), path));
+    const json operation = {{"do", "import"}, {"file", path}};
+    json out =
+        edited(title, c.value("link", false) ? Equivalent()
+                                             : of_edit(s.edited_file(document().path()),
+                                                       json::array({operation}), json::array({nullptr})));
     out["id"] = made;
     return out;
 }

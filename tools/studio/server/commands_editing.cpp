@@ -187,7 +187,7 @@ json Commands::edit() {
                 ids.push_back(carry_out(o, system, run().registry(), document().path()));
         },
         title, joins_document() ? c.value("merge", "") : "");
-    const auto forms = of_edit(document().path(), operations, ids);
+    const auto forms = of_edit(s.edited_file(document().path()), operations, ids);
     if (step) {
         edited(title, forms);
     } else if (document().text() != before) {  // it joined the step before

@@ -102,7 +102,7 @@ json Commands::back_or_forth(std::vector<Session::Undo>& from, std::vector<Sessi
             if (runs) run_in_world(command.at("run"));
             set_world_text(command.at("text"));
             const json replaced = json::array({{{"do", "text"}, {"text", command.at("text")}}});
-            tell_world_edit(title, of_world_edit(world_text().path, replaced), runs, ended);
+            tell_world_edit(title, of_world_edit(s.edited_file(world_text().path), replaced), runs, ended);
         } else {
             s.act(command, std::nullopt, told(command, title));
         }

@@ -85,9 +85,7 @@ json Commands::world_edit() {
     json ids = json::array();
     for (const auto& o : operations)
         for (auto& id : flat(editing::carry_out_in_world(o, text, models))) ids.push_back(std::move(id));
-    Diagnostics diagnostics;
-    bug::check_world_text(world_text().path, text, diagnostics);
-    throw_errors(diagnostics);
+    editing::check_world(world_text().path, text);
     const auto title =
         c.value("title", fmt::format("{} in the world", operations.front().value("do", "edit")));
     const auto merge = c.value("merge", "");
@@ -116,7 +114,7 @@ json Commands::world_edit() {
         s.add_undo({undo, redo, title, false});
     s.redo_.clear();
     set_world_text(text);
-    tell_world_edit(title, of_world_edit(world_text().path, operations), runs, ended);
+    tell_world_edit(title, of_world_edit(s.edited_file(world_text().path), operations), runs, ended);
     return {{"ids", std::move(ids)}, {"generation", s.generation_}};
 }
 

@@ -134,37 +134,36 @@ Equivalent of_end(const DrivenGroup& driven, std::uint64_t begun, std::uint64_t 
 
 namespace {
 
-constexpr std::size_t most_edited = 20'000;  ///< characters of operations
+constexpr std::size_t most_edited = 8000;  ///< characters of operations
 
-std::string edit_command(const std::string& file, const nlohmann::json& operations) {
-    if (file.empty()) return {};
+/// Empty when there is no file, and for operations that are too long.
+Equivalent forms_of(const EditedFile& file, const nlohmann::json& operations, const std::string& begin,
+                    const std::string& end) {
     const auto text = operations.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    return fmt::format("forage edit {} {}", quoted(file), quoted(text));
+    if (text.size() > most_edited) return {};
+    Equivalent out;
+    if (!file.path.empty()) {
+        out.shell = fmt::format("forage edit {} {}", quoted(file.path), quoted(text));
+        for (const auto& p : file.plugins) out.shell += " --plugin " + quoted(p);
+    }
+    std::vector<std::string> lines;
+    for (const auto& o : operations) lines.push_back(in_python(o));
+    out.python =
+        fmt::format("{}[{}]{}", begin, fmt::join(lines, ",\n" + std::string(begin.size() + 1, ' ')), end);
+    return out;
 }
 
 }  // namespace
 
-Equivalent of_edit(const std::string& file, const nlohmann::json& operations, const nlohmann::json& ids) {
+Equivalent of_edit(const EditedFile& file, const nlohmann::json& operations, const nlohmann::json& ids) {
     nlohmann::json all = operations;
-    std::vector<std::string> lines;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        if (ids[i].is_string() && all[i]["do"] != "paste") all[i]["id"] = ids[i];
-        lines.push_back(in_python(all[i]));
-    }
-    if (all.dump().size() > most_edited) return {};
-    return {edit_command(file, all), fmt::format("system.edit([{}])", fmt::join(lines, ",\n             "))};
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (ids[i].is_string() && all[i].value("do", "").starts_with("add_")) all[i]["id"] = ids[i];
+    return forms_of(file, all, "system.edit(", ")");
 }
 
-Equivalent of_world_edit(const std::string& file, const nlohmann::json& operations) {
-    if (operations.dump().size() > most_edited) return {};
-    return {edit_command(file, operations),
-            fmt::format("forage.edit_file({}, {})", literal(file), in_python(operations))};
-}
-
-Equivalent of_import(const std::string& file, const std::string& from) {
-    const auto q = quoted(file);
-    return {file.empty() ? "" : fmt::format("forage convert {} {} --import {}", q, q, quoted(from)),
-            fmt::format("system.import_process({})", literal(from))};
+Equivalent of_world_edit(const EditedFile& file, const nlohmann::json& operations) {
+    return forms_of(file, operations, fmt::format("forage.edit_file({}, ", literal(file.path)), ")");
 }
 
 Equivalent of_move(const std::string& name, double x, double y, double heading) {

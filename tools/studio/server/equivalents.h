@@ -29,13 +29,16 @@ struct DrivenGroup {
 /// Its begin, and its end when it began before the cycle `from`.
 Equivalent of_manipulation(const DrivenGroup& driven, std::uint64_t cycle);
 Equivalent of_end(const DrivenGroup& driven, std::uint64_t from, std::uint64_t cycle);
-/// Operations on the system in a file, with the ids that they have made; `file` is empty before the first
-/// save. Both forms are empty when the operations have more than 20,000 characters.
-Equivalent of_edit(const std::string& file, const nlohmann::json& operations, const nlohmann::json& ids);
+/// A file that is edited, as `forage edit` names it; the path is empty for none.
+struct EditedFile {
+    std::string path;
+    std::vector<std::string> plugins = {};
+};
+/// Operations on the system in a file, with the ids that they have made. Both forms are empty when the
+/// operations have more than 8000 characters.
+Equivalent of_edit(const EditedFile& file, const nlohmann::json& operations, const nlohmann::json& ids);
 /// Operations on the world in a file, likewise.
-Equivalent of_world_edit(const std::string& file, const nlohmann::json& operations);
-/// The process in the file `from`, which is added to the system in `file`.
-Equivalent of_import(const std::string& file, const std::string& from);
+Equivalent of_world_edit(const EditedFile& file, const nlohmann::json& operations);
 /// A robot or an object that is moved. `forage run` has no option for it.
 Equivalent of_move(const std::string& name, double x, double y, double heading);
 /// A new trial; `start` is -1 for the next start pose.

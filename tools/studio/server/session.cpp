@@ -13,6 +13,7 @@
 #include "core/base/text_file.h"
 #include "core/model/refused.h"
 #include "tools/api/describe_json.h"
+#include "tools/api/json_text.h"
 #include "tools/api/sources.h"
 #include "tools/plot/world_map.h"
 #include "tools/studio/server/commands.h"
@@ -241,7 +242,7 @@ void Session::message(int client, std::string_view text) {
     json reply;
     json id = nullptr;
     try {
-        const json command = json::parse(text, nullptr, false);
+        const json command = parse_json(std::string(text));
         if (!command.is_object()) {
             reply = {{"ok", false}, {"problems", problem("a message is one JSON object")}};
         } else {
@@ -255,6 +256,8 @@ void Session::message(int client, std::string_view text) {
             }
             reply = execute(client, command);
         }
+    } catch (const InputError& e) {
+        reply = {{"ok", false}, {"problems", problems_of(e.diagnostics())}};
     } catch (const json::exception& e) {
         reply = {{"ok", false}, {"problems", problem(e.what())}};
     }

@@ -181,6 +181,7 @@ class Session {
     /// Takes a step of the document back, or forth.
     void step_document(bool back);
     void tell_document();
+    void note_text();     ///< pages know the text of the document
     void note_opening();  ///< the system of the document is another one now
     /// Gives a description of parameters the values of the saved file. Returns false for an item of another
     /// file.
@@ -199,6 +200,9 @@ class Session {
     /// Whether a path is one of a system that the page opened from those that come with Forage. They are not
     /// written, so that the next reader of the tutorial finds them as they are.
     bool comes_with_forage(const std::string& path) const;
+    /// The file of the document or of the world as commands may write it: one that comes with Forage in a
+    /// copy in the working directory, and none for a backup.
+    EditedFile edited_file(const std::string& path) const;
     std::string shipped_;
     std::string plot_config_;  ///< the file of the layout; may be empty
     json layout_;              ///< the layout that pages begin with; null for none

@@ -51,7 +51,7 @@ void Session::begin_document(const RunInput& input) {
     }
     world_text_.reset();
     built_ = document_->system();
-    told_text_ = document_->readable() ? document_->text() : std::string();
+    told_text_.clear(), note_text();
     current_ = true, outside_ = false;
     problems_ = document_->problems(run_->registry(), run_->environment());
     changed_.clear(), undo_.clear(), redo_.clear();
@@ -88,7 +88,7 @@ void Session::open_with_mistakes(const RunInput& input, const Diagnostics& found
     }
     begin_document(nothing);
     document_ = std::move(document);
-    told_text_.clear();
+    told_text_.clear(), note_text();
     current_ = false;
     problems_ = document_->located(found);
     wanted_ = input, mistakes_ = found;
@@ -179,8 +179,18 @@ json Session::document_message() const {
             {"running_is_current", current_}};
 }
 
-void Session::tell_document() {
+void Session::note_text() {
     if (document_->readable()) told_text_ = document_->text();
+}
+
+EditedFile Session::edited_file(const std::string& path) const {
+    if (backup_of(path)) return {};
+    if (comes_with_forage(path)) return {std::filesystem::path(path).filename().string(), input_.plugins};
+    return {path, input_.plugins};
+}
+
+void Session::tell_document() {
+    note_text();
     status_due_ = true;
     tell(document_message());
 }
@@ -216,10 +226,11 @@ bool Session::set_in_document(const std::vector<std::string>& assignments, const
 void Session::step_document(bool back) { back ? document_->undo() : document_->redo(); }
 
 void Session::follow_document(const std::string& title, Equivalent forms) {
-    if (forms.python.empty() && document_->readable() && !told_text_.empty()) {
+    const auto complete = [&] {
+        if (!forms.python.empty() || !document_->readable() || told_text_.empty()) return;
         const auto operation = editing::text_operation(told_text_, document_->text());
-        forms = of_edit(document_->path(), json::array({operation}), json::array({nullptr}));
-    }
+        forms = of_edit(edited_file(document_->path()), json::array({operation}), json::array({nullptr}));
+    };
     const auto& now = document_->system();
     const auto changes = model::parameter_changes(built_, now, run_->registry());
     const auto before = generation_;
@@ -232,15 +243,19 @@ void Session::follow_document(const std::string& title, Equivalent forms) {
         problems_ = document_->problems(run_->registry(), run_->environment());
         current_ = !has_errors(problems_);
         if (current_) {
-            built_ = now;
             std::vector<std::string> assignments;
             json values = json::object();
             for (const auto& a : *changes) {
+                model::set(built_, a);
                 assignments.push_back(a.text);
                 values[a.text.substr(0, a.text.find('='))] = a.text.substr(a.text.find('=') + 1);
             }
+            // What a run does not know is said of the system.
+            const bool more = built_ != now;
+            built_ = now;
             if (!assignments.empty()) {
-                const auto same = of_assignments(assignments, run_->cycle());
+                auto same = of_assignments(assignments, run_->cycle());
+                if (more) complete(), same = {forms.shell, same.python + '\n' + forms.python};
                 act({{"command", "set"}, {"assignments", assignments}}, std::nullopt,
                     {{"title", title}, {"values", values}, {"shell", same.shell}, {"python", same.python}});
             }
@@ -252,6 +267,7 @@ void Session::follow_document(const std::string& title, Equivalent forms) {
     }
     if (current_) input_.text = document_->text();
     if (generation_ == before) {
+        complete();
         ++generation_, ++version_;
         tell({{"type", "action"},
               {"generation", generation_},
