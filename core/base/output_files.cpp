@@ -92,10 +92,13 @@ void flush_directory(const std::string& path) {
 }  // namespace
 
 void write_file(const std::string& path, std::string_view text) {
-    namespace fs = std::filesystem;
-    const std::string file = fs::is_symlink(path) ? fs::weakly_canonical(path).string() : path;
-    write_partial(file, text);
-    finish(file);
+    std::filesystem::path file = path;
+    std::error_code ignored;
+    constexpr int most_links = 40;  // as the system follows them
+    for (int i = 0; i < most_links && std::filesystem::is_symlink(file, ignored); ++i)
+        file = file.parent_path() / std::filesystem::read_symlink(file, ignored);
+    write_partial(file.string(), text);
+    finish(file.string());
 }
 
 void write_durably(const std::string& path, std::string_view text, const std::string& keep) {

@@ -240,6 +240,11 @@ void set(System& system, const Assignment& a) {
                              : to_text(a.value));
 }
 
+void set_as_in(const System& other, System& system, const Assignment& a) {
+    if (!a.parameter) return set(system, a);
+    use_of(system, a).settings = use_of(other, a).settings;
+}
+
 void set(System& system, const Registry& registry, std::string_view assignment, Diagnostics& diagnostics,
          Location at) {
     const std::string_view what = at.file ? "set" : "--set";

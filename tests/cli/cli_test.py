@@ -530,6 +530,9 @@ class Edit(Cli):
         shutil.copytree(PROJECT / "systems/worlds/models", self.here / "models")
         self.forage("edit", "link.world", '{"do": "add", "kind": "pillar", "x": 0, "y": 0}')
         self.assertTrue((self.here / "link.world").is_symlink())
+        (self.here / "dangling.iqr").symlink_to("made.iqr")
+        self.forage("edit", "small.iqr", "[]", "-o", "dangling.iqr")
+        self.assertTrue((self.here / "dangling.iqr").is_symlink() and (self.here / "made.iqr").is_file())
         self.assertIn("Pillar", world.read_text())
 
     def test_the_text_of_an_item_is_written_as_it_is(self):
@@ -550,6 +553,9 @@ class Edit(Cli):
         self.assertIn("control character", self.forage("edit", "small.iqr", r'{"do": "system", "author": "a\u0000b"}', status=2).stderr)
         self.assertIn("error: ", self.forage("edit", "small.iqr", "[]", "-o", "small.iqr/x.iqr", status=2).stderr)
         self.assertIn("does not end with .iqr", self.forage("edit", "small.iqr", "[]", "-o", "small.world", status=2).stderr)
+        self.assertIn("operation 2: there is no operation", self.forage("edit", "small.iqr", '[{"do": "add_process", "name": "Q"}, {"do": "grow"}]', "-o", "absent/x.iqr", status=2).stderr)
+        self.assertIn("control character", self.forage("edit", "small.iqr", r'{"do": "ports", "id": "p", "outputs": {"o\u0001": "a"}}', status=2).stderr)
+        self.assertIn("a number is too large", self.forage("edit", "small.iqr", '{"do": "place", "id": "a", "x": 1e999, "y": 1}', status=2).stderr)
         with tempfile.TemporaryDirectory() as folder:
             operations = pathlib.Path(folder) / "operations.json"
             operations.write_text('[{"do": "remove",\n "ids": []]')

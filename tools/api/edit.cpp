@@ -35,6 +35,11 @@ json attempt(const json& all, std::size_t number, CarryOut carry_out) {
         throw InputError(which + "an operation is an object", R"({"do": "rename", "id": "a", "name": "B"})");
     try {
         return carry_out(all[number]);
+    } catch (const InputError& e) {
+        Diagnostics found;
+        for (auto d : e.diagnostics().all())
+            d.message = (found.all().empty() ? which : "") + d.message, found.add(std::move(d));
+        throw InputError(std::move(found));
     } catch (const model::Refused& e) {
         throw InputError(which + e.what(), e.hint());
     } catch (const std::invalid_argument& e) {
@@ -58,6 +63,13 @@ void add_new_problems(const std::vector<Document::Problem>& before,
     }
 }
 
+/// Makes the folder of a file that will be written. Throws InputError.
+void prepare(const std::string& path) {
+    Diagnostics diagnostics;
+    check_output(path, "edited" + std::filesystem::path(path).extension().string(), diagnostics);
+    throw_errors(diagnostics);
+}
+
 json edit_world(const std::string& path, const json& operations, const std::string& save_as) {
     std::string text = read_input_file(path);
     json made = json::array();
@@ -66,6 +78,7 @@ json edit_world(const std::string& path, const json& operations, const std::stri
         made.push_back(attempt(operations, i,
                                [&](const json& o) { return editing::carry_out_in_world(o, text, models); }));
     editing::check_world(save_as, text);
+    prepare(save_as);
     write_file(save_as, text);
     return made;
 }
@@ -99,6 +112,7 @@ json edit_system(const std::string& path, const json& operations, const std::str
             },
             "edit");
     }
+    prepare(save_as);
     document.save(save_as == path ? std::string() : save_as, types, true);
     add_new_problems(before, document.problems(types), warnings);
     return made;

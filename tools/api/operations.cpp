@@ -245,14 +245,21 @@ const std::map<std::string, json (Operation::*)()>& operations_by_name() {
     return operations;
 }
 
-/// XML cannot hold them.
-void refuse_control_characters(const json& value) {
-    if (value.is_string())
-        for (const char c : value.get_ref<const std::string&>())
-            if (static_cast<unsigned char>(c) < ' ' && c != '\t' && c != '\n' && c != '\r')
-                throw InputError("a text has a control character, which XML cannot hold");
-    if (value.is_structured())
-        for (const auto& each : value) refuse_control_characters(each);
+/// Throws InputError for a text with a character that XML cannot hold.
+void check_characters(const std::string& text) {
+    const bool control = std::ranges::any_of(text, [](char c) {
+        return static_cast<unsigned char>(c) < ' ' && c != '\t' && c != '\n' && c != '\r';
+    });
+    if (control || text.find("\xef\xbf\xbe") != text.npos || text.find("\xef\xbf\xbf") != text.npos)
+        throw InputError("a text has a control character, which XML cannot hold");
+}
+
+void check_characters(const json& value) {
+    if (value.is_string()) check_characters(value.get_ref<const std::string&>());
+    if (value.is_array())
+        for (const auto& each : value) check_characters(each);
+    if (value.is_object())
+        for (const auto& [name, each] : value.items()) check_characters(name), check_characters(each);
 }
 
 std::string name_of(const System& system, const std::string& id) {
@@ -276,7 +283,7 @@ std::string name_of(const System& system, const std::string& id) {
 }  // namespace
 
 json carry_out(const json& operation, System& system, const Registry& registry, const std::string& path) {
-    refuse_control_characters(operation);
+    check_characters(operation);
     const auto what = operation.at("do").get<std::string>();
     const auto it = operations_by_name().find(what);
     if (it == operations_by_name().end()) {

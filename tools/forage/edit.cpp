@@ -2,7 +2,6 @@
 #include <forage/system.h>
 #include <nlohmann/json.hpp>
 
-#include "core/base/output_files.h"
 #include "tools/api/json_text.h"
 #include "tools/api/sources.h"
 #include "tools/forage/commands.h"
@@ -10,14 +9,12 @@
 namespace forage::tool {
 
 int edit(const EditOptions& o) try {
-    Diagnostics diagnostics;
-    if (!o.output.empty()) check_output(o.output, "edited.iqr", diagnostics);
-    throw_errors(diagnostics);
     const auto first = o.operations.find_first_not_of(" \t\r\n");
     const bool is_json =
         first != std::string::npos && (o.operations[first] == '[' || o.operations[first] == '{');
     const auto operations = is_json ? o.operations : read_input_file(o.operations);
     if (!is_json) parse_json(operations, o.operations);  // mistakes are in this file
+    Diagnostics diagnostics;
     const auto made = nlohmann::json::parse(edit_file(o.file, operations, o.output, o.plugins, &diagnostics));
     fmt::print(stderr, "{}", format(diagnostics));
     for (const auto& ids : made)

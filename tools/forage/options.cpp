@@ -296,7 +296,7 @@ void add_edit(CLI::App& app, EditOptions& o) {
         "Example:\n"
         "  forage edit mine.iqr '{\"do\": \"parameter\", \"id\": \"light\", \"name\": \"threshold\", "
         "\"value\": 0.3}'\n"
-        "docs/design/studio-protocol.md lists all operations, and the studio shows each edit in this form.");
+        "docs/design/studio-protocol.md lists all operations, and the studio shows edits in this form.");
     command.add_option("FILE", o.file, "System or world (.iqr or .world)")->required()->option_text(" ");
     command
         .add_option("OPERATIONS", o.operations,

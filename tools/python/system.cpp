@@ -307,7 +307,7 @@ Raises InputError and adds nothing when a name or a value is wrong. The cells ar
 
     system.edit({"do": "place", "id": "light", "x": 120, "y": 80})
 
-docs/design/studio-protocol.md lists them, in the section on editing; the studio shows each edit in this form. All operations are carried out, or none when one is
+docs/design/studio-protocol.md lists them, in the section on editing; the studio shows edits in this form. All operations are carried out, or none when one is
 refused, which raises InputError.)")
         .def(
             "join",
@@ -340,7 +340,7 @@ refused, which raises InputError.)")
     forage.edit_file("desert.world", {"do": "move", "id": "light_3", "x": 0.5, "y": -1})
 
 path: the file; everything else in it stays as its author wrote it.
-operations: a dict or a list of them; docs/design/studio-protocol.md lists them, and the studio shows each edit in this form.
+operations: a dict or a list of them; docs/design/studio-protocol.md lists them, and the studio shows edits in this form.
 save_as: the file to write instead of `path`.
 plugins: shared objects with types that the system uses, as for open().
 

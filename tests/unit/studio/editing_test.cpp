@@ -840,6 +840,43 @@ TEST_CASE("an edit of the structure says what it ends: the past, a comparison, a
     CHECK(e.session->run().cycle() == 22);
 }
 
+TEST_CASE("what is edited is shown for the run, for the system, or for both") {
+    Editor e("reactive_foraging.iqr");
+    const auto forms = [&](const json& operations) {
+        e.edit(operations);
+        return std::pair(e.last["action"]["shell"].get<std::string>(),
+                         e.last["action"]["python"].get<std::string>());
+    };
+    const json parameter = {
+        {"do", "parameter"}, {"id", "bug.light"}, {"name", "threshold"}, {"value", "0.50"}};
+    const json note = {{"do", "set"}, {"id", "bug.light"}, {"property", "note"}, {"value", "dim"}};
+    const auto of_run = forms(json::array({parameter}));  // however the file spells it
+    CHECK(of_run.first == "--set 'Bug/Light.threshold=0.5'");
+    CHECK(of_run.second == "run.params[\"Bug/Light.threshold\"] = 0.5");
+    e.result({{"command", "undo"}});
+    CHECK(e.last["action"]["python"] == "run.params[\"Bug/Light.threshold\"] = 0");
+    CHECK(forms(json::array({note})).second.starts_with("system.edit([{"));
+    auto other = parameter, longer = note;
+    other["value"] = 0.25, longer["value"] = std::string(9000, 'x');
+    const auto [shell, python] =
+        forms({other, {{"do", "set"}, {"id", "bug.light"}, {"property", "note"}, {"value", "bright"}}});
+    CHECK(shell.starts_with("forage edit '" + e.file + "' '[{"));
+    CHECK(python.starts_with("run.params[\"Bug/Light.threshold\"] = 0.25\nsystem.edit([{"));
+    other["value"] = 0.75;
+    CHECK(forms(json::array({other, longer})) ==
+          std::pair<std::string, std::string>("--set 'Bug/Light.threshold=0.75'",
+                                              "run.params[\"Bug/Light.threshold\"] = 0.75"));
+}
+
+TEST_CASE("a message that is too deep has an answer") {
+    Editor e;
+    json deep = 1;
+    for (int i = 0; i < 200; ++i) deep = json::array({deep});
+    e.session->message(1, json{{"id", 7}, {"command", "edit"}, {"operations", deep}}.dump());
+    CHECK(e.last["reply"]["id"] == 7);
+    CHECK(e.last["reply"]["ok"] == false);
+}
+
 TEST_CASE("actions that begin the run anew say what they end, and how to do it without the studio") {
     Editor e;
     int recordings = 0;

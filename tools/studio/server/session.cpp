@@ -242,11 +242,12 @@ void Session::message(int client, std::string_view text) {
     json reply;
     json id = nullptr;
     try {
-        const json command = parse_json(std::string(text));
+        const json command = json::parse(text, nullptr, false);
         if (!command.is_object()) {
             reply = {{"ok", false}, {"problems", problem("a message is one JSON object")}};
         } else {
             id = command.value("id", json());
+            check_depth(command);
             if (command.value("command", json()) == "ack") {
                 const auto seq = command.value("seq", json());
                 if (const auto it = clients_.find(client); it != clients_.end() && seq.is_number_unsigned())

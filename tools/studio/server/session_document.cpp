@@ -246,16 +246,17 @@ void Session::follow_document(const std::string& title, Equivalent forms) {
             std::vector<std::string> assignments;
             json values = json::object();
             for (const auto& a : *changes) {
-                model::set(built_, a);
+                model::set_as_in(now, built_, a);
                 assignments.push_back(a.text);
                 values[a.text.substr(0, a.text.find('='))] = a.text.substr(a.text.find('=') + 1);
             }
             // What a run does not know is said of the system.
             const bool more = built_ != now;
-            built_ = now;
+            if (more) complete(), built_ = now;
             if (!assignments.empty()) {
                 auto same = of_assignments(assignments, run_->cycle());
-                if (more) complete(), same = {forms.shell, same.python + '\n' + forms.python};
+                if (more && !forms.shell.empty()) same.shell = forms.shell;
+                if (more && !forms.python.empty()) same.python += '\n' + forms.python;
                 act({{"command", "set"}, {"assignments", assignments}}, std::nullopt,
                     {{"title", title}, {"values", values}, {"shell", same.shell}, {"python", same.python}});
             }
