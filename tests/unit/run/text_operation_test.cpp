@@ -30,7 +30,7 @@ TEST_CASE("two texts differ by the operation on the innermost item") {
     };
     CHECK(change("name=\"A\"", "name=\"Z\"") == "a");
     CHECK(change("id=\"b\" name=\"A\"/", "id=\"b\" name=\"A\">x</Group") == "b");
-    CHECK(change("id=\"a\"", "id=\"c\"") == "a");  // the id that it has in the text old_text
+    CHECK(change("id=\"a\"", "id=\"c\"") == "a");  // the id that it has in the old text
     CHECK(change("    <Group id=\"a\" name=\"A\"/>\n", "") == "p");
     CHECK(change("    <Group id=\"b\"", "    <Group id=\"c\" name=\"A\"/>\n    <Group id=\"b\"") ==
           "b");  // its place gets both
