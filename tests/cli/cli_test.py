@@ -535,10 +535,10 @@ class Edit(Cli):
         self.assertTrue((self.here / "dangling.iqr").is_symlink() and (self.here / "made.iqr").is_file())
         self.assertIn("Pillar", world.read_text())
 
-    def test_the_text_of_an_item_is_written_as_it_is(self):
+    def test_parts_of_the_text_are_replaced(self):
         (self.here / "small.iqr").write_text(SMALL_SYSTEM)
-        whole = SMALL_SYSTEM.replace("<Process", "<!-- why -->\n  <Process", 1)
-        self.forage("edit", "small.iqr", json.dumps([{"do": "text", "id": "system", "text": whole}, {"do": "system", "author": "Ada"}]))
+        why = {"do": "replace", "parts": [{"old": "<Process", "new": "<!-- why -->\n  <Process"}]}
+        self.forage("edit", "small.iqr", json.dumps([why, {"do": "system", "author": "Ada"}]))
         self.assertIn("<!-- why -->\n  <Process", (self.here / "small.iqr").read_text())
         self.assertIn('author="Ada"', (self.here / "small.iqr").read_text())
 
@@ -555,6 +555,8 @@ class Edit(Cli):
         self.assertIn("does not end with .iqr", self.forage("edit", "small.iqr", "[]", "-o", "small.world", status=2).stderr)
         self.assertIn("operation 2: there is no operation", self.forage("edit", "small.iqr", '[{"do": "add_process", "name": "Q"}, {"do": "grow"}]', "-o", "absent/x.iqr", status=2).stderr)
         self.assertIn("control character", self.forage("edit", "small.iqr", r'{"do": "ports", "id": "p", "outputs": {"o\u0001": "a"}}', status=2).stderr)
+        self.assertIn("'old' of part 1 is in the text several times", self.forage("edit", "small.iqr", '{"do": "replace", "parts": [{"old": "<Group", "new": "<group"}]}', status=2).stderr)
+        self.assertRegex(self.forage("edit", "small.iqr", '{"do": "replace", "parts": [{"old": "<System", "new": "<Sys"}]}', status=2).stderr, r"small\.iqr:\d+:\d+: error: ")
         self.assertIn("a number is too large", self.forage("edit", "small.iqr", '{"do": "place", "id": "a", "x": 1e999, "y": 1}', status=2).stderr)
         with tempfile.TemporaryDirectory() as folder:
             operations = pathlib.Path(folder) / "operations.json"

@@ -223,6 +223,8 @@ class Watching(unittest.TestCase):
         self.assertEqual(value(), 0.25)
         self.page.do('undo')
         self.assertEqual(value(), before)
+        self.page.do('stop')
+        self.assertEqual(value(), before)
         self.page.do('redo')
         self.assertEqual(value(), 0.25)
         self.page.do('stop')

@@ -102,6 +102,16 @@ def test_an_edit_is_repeated_in_python(tmp_path):
     assert system[f"{process.name}/Ear"].params["threshold"] == 0.25
 
 
+def repeat(forms, system, command, file, copy):
+    """Does what a page has done once more, in Python and in the shell."""
+    for python, shell in forms:
+        exec(python, {"system": system})
+        if shell:
+            words = shlex.split(shell)
+            assert words[:2] == ["forage", "edit"]
+            command(*words[1:2], *(word.replace(str(file), str(copy)) for word in words[2:]))
+
+
 def test_changes_of_the_text_and_undo_are_repeated_in_python_and_the_shell(tmp_path, command):
     file, copy = tmp_path / "edited.iqr", tmp_path / "copy.iqr"
     file.write_bytes((SYSTEMS / "cookbook/oscillator.iqr").read_bytes())
@@ -132,16 +142,84 @@ def test_changes_of_the_text_and_undo_are_repeated_in_python_and_the_shell(tmp_p
         forms = [(m["python"], m["shell"]) for m in actions if m["type"] == "action"]
         page.close()
     assert [python == "" for python, _ in forms].count(True) == 2, forms  # the text that is not XML, and undo back to it
-    for python, shell in forms:
-        exec(python, {"system": system})
-        if shell:
-            words = shlex.split(shell)
-            command(*words[1:2], words[2].replace(str(file), str(copy)), *words[3:])
+    repeat(forms, system, command, file, copy)
     assert copy.read_text() == text
     # With all that the original requires, as a file may leave that out.
     system.save(tmp_path / "python.iqr", original=True)
     forage.System.parse(text, path=file).save(tmp_path / "studio.iqr", original=True)
     assert (tmp_path / "python.iqr").read_text().splitlines() == (tmp_path / "studio.iqr").read_text().splitlines()
+
+
+def test_undo_in_a_large_system_is_repeated_in_python_and_the_shell(tmp_path, command):
+    """Of what is at the element of the system, around which is all of its text."""
+    file, copy = tmp_path / "edited.iqr", tmp_path / "copy.iqr"
+    file.write_bytes((SYSTEMS / "dac_foraging.iqr").read_bytes())
+    copy.write_bytes(file.read_bytes())
+    system = forage.System.read(file)
+    removed = system.connections[3].id
+    with Studio(os.environ["FORAGE"], str(file), "--world", str(WORLD)) as studio:
+        page = Page(studio)
+        page.do("pause")
+        page.do("edit", operations=[{"do": "system", "author": "Ada", "note": "é"}])
+        page.do("undo")
+        page.do("edit", operations=[{"do": "remove", "ids": [removed]}])
+        page.do("undo")
+        page.do("edit", operations=[{"do": "remove", "ids": [p.id for p in system.processes]}])
+        page.do("undo")  # all of the text comes back, which is too long; it goes and comes again
+        page.do("redo")
+        page.do("undo")
+        page.do("edit", operations=[{"do": "rename", "id": removed, "name": "Last"}])
+        text = page.do("document")["text"]
+        forms = [(m["python"], m["shell"]) for m in page.messages if m["type"] == "action"]
+        page.close()
+    assert len(forms) == 9
+    too_long = [form for form in forms if not form[0] or not form[1]]
+    assert too_long == [("", "")] * 3, [[len(part) for part in form] for form in forms]
+    repeat(forms[:4] + forms[8:], system, command, file, copy)
+    assert copy.read_text() == text
+    assert system == forage.System.parse(text, path=file)
+
+
+def test_a_parameter_gets_into_the_file_with_the_next_edit_or_when_it_is_saved(tmp_path, command):
+    file, copy, third = tmp_path / "edited.iqr", tmp_path / "copy.iqr", tmp_path / "third.iqr"
+    file.write_bytes((SYSTEMS / "dac_foraging.iqr").read_bytes())
+    copy.write_bytes(file.read_bytes())
+    system = forage.System.read(file)
+    group = system["Bug/Light"]
+    with Studio(os.environ["FORAGE"], str(file), "--world", str(WORLD)) as studio:
+        page = Page(studio)
+        page.do("pause")
+        page.do("edit", operations=[{"do": "rename", "id": group.id, "name": "Eyes"}])
+        page.do("set", assignments=["Bug/Eyes.threshold=0.25", "Bug.enableModule=false"])
+        page.do("edit", operations=[{"do": "place", "id": group.id, "x": 5, "y": 6}])
+        page.do("set", assignments=["Bug/Motor.excGain=0.5"])
+        page.do("undo")
+        page.do("undo")  # the place
+        page.do("set", assignments=["Bug/Motor.excGain=0.75"])
+        page.do("save")
+        saved = file.read_text()
+        page.do("set", assignments=["Bug/Motor.excGain=0.8"])
+        page.do("save", file=str(third))
+        page.do("edit", operations=[{"do": "rename", "id": group.id, "name": "Light"}])
+        text = page.do("document")["text"]
+        actions = [m for m in page.messages if m["type"] == "action"]
+        page.close()
+    assert [a["title"] for a in actions if a["command"] == "save"] == ["save edited.iqr", "save as third.iqr"]
+    assert "place" in actions[2]["shell"] and "threshold" in actions[2]["shell"], actions[2]
+    written = third.read_text()
+    third.unlink()
+    forms = [(a["python"], a["shell"]) for a in actions if "system." in a["python"]]
+    assert len(forms) == 6, [(a["title"], a["python"]) for a in actions]
+    save = next(i for i, (python, _) in enumerate(forms) if "system.save" in python)
+    repeat(forms[: save + 1], system, command, file, copy)
+    assert copy.read_text() == saved
+    assert forage.System.read(file) == forage.System.parse(saved, path=file)  # Python has saved it there
+    for python, shell in forms[save + 1 : -1]:
+        command(*(word.replace(str(file), str(copy)) for word in shlex.split(shell)[1:]))
+        assert third.read_text() == written
+        exec(python, {"system": system})
+    exec(forms[-1][0], {"system": system})
+    assert system == forage.System.parse(text, path=third)
 
 
 def test_edits_of_a_world_are_repeated_in_python_and_the_shell(tmp_path, command, monkeypatch):
@@ -166,8 +244,11 @@ def test_edits_of_a_world_are_repeated_in_python_and_the_shell(tmp_path, command
         page.do("undo")
         actions = [m for m in page.messages if m["type"] == "action"]
         page.do("world_save")
+        page.do("world_save", file=str(tmp_path / "third.world"))
+        save = page.last("action")
         page.close()
     assert len(actions) == 7
+    assert all(len(a["shell"]) < 2000 for a in actions)
     wanted = mine.read_bytes()
     mine.write_bytes((other / mine.name).read_bytes())
     for action in actions:
@@ -177,6 +258,16 @@ def test_edits_of_a_world_are_repeated_in_python_and_the_shell(tmp_path, command
         words = shlex.split(action["shell"])
         command(*words[1:2], words[2].replace(str(tmp_path), str(other)), *words[3:])
     assert (other / mine.name).read_bytes() == wanted
+    third = tmp_path / "third.world"
+    assert third.read_bytes() == wanted
+    third.unlink()
+    command(*shlex.split(save["shell"])[1:])
+    assert third.read_bytes() == wanted
+    third.unlink()
+    names = {"forage": forage}
+    exec(save["python"], names)
+    names["run"].close()
+    assert third.read_bytes() == wanted
 
 
 def test_a_file_is_edited_and_keeps_what_is_not_touched(tmp_path):
@@ -191,7 +282,7 @@ def test_a_file_is_edited_and_keeps_what_is_not_touched(tmp_path):
     assert len(changed) == 1 and changed[0][0] == "+" and 'x="123"' in changed[0], changed
     for operations, name, message in (
         ([place, {"do": "grow"}], file, "there is no operation 'grow'"),
-        ({"do": "text", "id": group.id, "text": "<Group>"}, file, "a.iqr"),
+        ({"do": "replace", "parts": [{"old": "</System>", "new": ""}]}, file, "a.iqr"),
         (place, tmp_path / "c.txt", "neither a system nor a world"),
         (place, tmp_path / "none.iqr", "none.iqr"),
     ):

@@ -11,6 +11,7 @@
 #include "tools/api/json_text.h"
 #include "tools/api/operations.h"
 #include "tools/api/sources.h"
+#include "tools/api/text_parts.h"
 #include "tools/api/world_operations.h"
 
 namespace forage {
@@ -91,16 +92,14 @@ json edit_system(const std::string& path, const json& operations, const std::str
     throw_errors(diagnostics);
     const auto before = document.problems(types);
     json made = json::array();
-    const auto is_text = [](const json& o) { return o.is_object() && o.value("do", json()) == "text"; };
-    const auto replace_text = [&](const json& o) {
-        const auto id = o.at("id").get<std::string>();
-        document.replace_item_text(id == "system" ? document.system().id : id,
-                                   o.at("text").get<std::string>(), "text");
+    const auto is_text = [](const json& o) { return o.is_object() && o.value("do", json()) == "replace"; };
+    const auto replace = [&](const json& o) {
+        document.replace_text(editing::with_parts_replaced(document.text(), o), "replace");
         return json();
     };
     while (made.size() < operations.size()) {
         if (is_text(operations[made.size()])) {  // as its author wrote it, not as the model of it is written
-            made.push_back(attempt(operations, made.size(), replace_text));
+            made.push_back(attempt(operations, made.size(), replace));
             continue;
         }
         document.edit(

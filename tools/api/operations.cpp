@@ -10,10 +10,10 @@
 #include "core/model/operations.h"
 #include "core/run/input_error.h"
 #include "core/types/registry.h"
-#include "core/xml/patch.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
 #include "tools/api/forms.h"
+#include "tools/api/text_parts.h"
 
 namespace forage::editing {
 namespace {
@@ -180,15 +180,9 @@ struct Operation {
         return model::paste(system, *std::move(content), text("process", ""), whole_from(o.at("x")),
                             whole_from(o.at("y")));
     }
-    json replace_text() {
-        const auto all = xml::write_system(system);
-        const auto place = xml::find_item(xml::scan(all), id());
-        if (!place) throw InputError(fmt::format("there is no item with the id '{}' in this file", id()));
+    json replace() {
         Diagnostics diagnostics;
-        const bool whole = id() == system.id;
-        auto read = xml::parse_system(
-            path, whole ? text("text") : all.substr(0, place->begin) + text("text") + all.substr(place->end),
-            diagnostics);
+        auto read = xml::parse_system(path, with_parts_replaced(xml::write_system(system), o), diagnostics);
         if (!read) throw InputError(std::move(diagnostics));
         system = *std::move(read);
         return nullptr;
@@ -240,7 +234,7 @@ const std::map<std::string, json (Operation::*)()>& operations_by_name() {
         {"paste", &Operation::paste},
         {"import", &Operation::import},
         {"system", &Operation::system_properties},
-        {"text", &Operation::replace_text},
+        {"replace", &Operation::replace},
     };
     return operations;
 }
@@ -317,6 +311,7 @@ std::string title_of(const json& o, const System& system) {
     if (what == "rename") return fmt::format("rename {} to {}", name, o.value("name", ""));
     if (what == "set") return fmt::format("{} of {}", o.value("property", "property"), name);
     if (what == "paste") return "paste";
+    if (what == "replace") return "edit the text of the system";
     if (what == "system") return "properties of the system";
     return fmt::format("{} of {}", what, name);
 }

@@ -8,6 +8,7 @@
 
 #include "bug_interface/world/sdf_edit.h"
 #include "core/run/input_error.h"
+#include "tools/api/text_parts.h"
 
 namespace forage::editing {
 namespace {
@@ -29,7 +30,7 @@ std::string value_of(const json& v) {
 
 json carry_out_in_world(const json& o, std::string& text, bug::ModelTexts& models) {
     const auto what = o.at("do").get<std::string>();
-    if (what == "text") return text = o.at("text").get<std::string>(), nullptr;
+    if (what == "replace") return text = with_parts_replaced(text, o), nullptr;
     if (what == "add") {
         bug::NewItem item{.kind = o.at("kind"), .name = o.value("name", ""), .x = o.at("x"), .y = o.at("y")};
         item.yaw = o.value("yaw", item.yaw), item.width = number_in(o, "width");
@@ -54,7 +55,7 @@ json carry_out_in_world(const json& o, std::string& text, bug::ModelTexts& model
         return nullptr;
     } else {
         throw InputError(fmt::format("there is no operation '{}'", what),
-                         "add, move, set, unpack, remove or text");
+                         "add, move, set, unpack, remove or replace");
     }
     return id;
 }

@@ -907,8 +907,11 @@ TEST_CASE("actions that begin the run anew say what they end, and how to do it w
     ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
     const std::string mine = (e.folder / "mine.world").string();
     told = action({{"command", "world_save"}, {"file", mine}});
+    CHECK(told["shell"] == "forage edit '" + arena + "' '[]' -o '" + mine + "'");
+    CHECK(told["python"] == "forage.edit_file(\"" + arena + "\", [], save_as=\"" + mine + "\")\n" + open +
+                                mine + "\", seed=8)");
+    told = action({{"command", "world_save"}});
     CHECK(told["shell"] == "--world '" + mine + "'");
-    CHECK(told["python"] == open + mine + "\", seed=8)");
 }
 
 TEST_CASE("a system without a robot leaves its world") {

@@ -151,7 +151,8 @@ struct Commands {
     json settings();
     json files();
     /// After a step of the document.
-    json edited(const std::string& title, const Equivalent& forms = {});
+    json edited(const std::string& title, const std::string& text_before = {},
+                const json& operations = json::array());
 
     // ---- the text of the world ----
     Session::WorldText& world_text();

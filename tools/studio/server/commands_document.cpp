@@ -96,7 +96,11 @@ json Commands::save() {
     if (backup_of(to))
         throw InputError(fmt::format("'{}' is a backup and stays as it is", to),
                          "save it under the name of the system, or under another one");
+    ScriptedSystem scripted = s.scripted_;
+    const auto forms = scripted.save(s.edited_file(before), document(), to, run().registry());
     document().save(file, run().registry(), c.value("overwrite", false));
+    scripted.note_text(document());
+    s.scripted_ = std::move(scripted);
     // The file now has a text that does not run.
     if (!s.current_ && s.input_.text.empty()) s.input_.text = s.begun_.text;
     s.input_.system = document().path();
@@ -105,6 +109,14 @@ json Commands::save() {
     if (s.current_) s.built_ = document().system();
     note_recent(document().path());
     if (s.kept_ && document().path() != before) s.keep_anew(), s.saved_version_.reset();
+    s.tell({{"type", "action"},
+            {"generation", s.generation_},
+            {"cycle", run().cycle()},
+            {"command", "save"},
+            {"title", (to == before ? "save " : "save as ") + fs::path(to).filename().string()},
+            {"shell", forms.shell},
+            {"python", forms.python},
+            {"undoable", false}});
     s.tell(s.system_message()), s.tell_document();
     return {{"file", document().path()}};
 }
@@ -142,6 +154,7 @@ json Commands::import_process() {
     const std::string title = "import " + fs::path(path).filename().string();
     if (c.value("link", false)) refuse_taken_ids(document().system(), file, path);
     std::string made;
+    const std::string before = document().text();
     document().edit(
         [&](model::System& system) {
             if (!c.value("link", false)) {
@@ -164,10 +177,7 @@ json Commands::import_process() {
             break;
         }
     const json operation = {{"do", "import"}, {"file", path}};
-    json out =
-        edited(title, c.value("link", false) ? Equivalent()
-                                             : of_edit(s.edited_file(document().path()),
-                                                       json::array({operation}), json::array({nullptr})));
+    json out = edited(title, before, c.value("link", false) ? json::array() : json::array({operation}));
     out["id"] = made;
     return out;
 }

@@ -160,9 +160,9 @@ struct Description {
 
 Document& Commands::document() { return *s.document_; }
 
-json Commands::edited(const std::string& title, const Equivalent& forms) {
+json Commands::edited(const std::string& title, const std::string& text_before, const json& operations) {
     s.add_undo({nullptr, nullptr, title, true});
-    s.follow_document(title, forms);
+    s.follow_document(title, text_before, operations);
     s.tell_document();
     return {{"generation", s.generation_}};
 }
@@ -187,11 +187,13 @@ json Commands::edit() {
                 ids.push_back(carry_out(o, system, run().registry(), document().path()));
         },
         title, joins_document() ? c.value("merge", "") : "");
-    const auto forms = of_edit(s.edited_file(document().path()), operations, ids);
+    json named = operations;
+    for (std::size_t i = 0; i < named.size(); ++i)
+        if (ids[i].is_string() && named[i].value("do", "").starts_with("add_")) named[i]["id"] = ids[i];
     if (step) {
-        edited(title, forms);
+        edited(title, before, named);
     } else if (document().text() != before) {  // it joined the step before
-        s.follow_document(title, forms);
+        s.follow_document(title, before, named);
         s.tell_document();
     }
     return {{"ids", std::move(ids)}, {"generation", s.generation_}};

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "tools/api/describe_json.h"
+#include "tools/api/text_parts.h"
 #include "tools/studio/server/command_functions.h"
 #include "tools/studio/server/equivalents.h"
 
@@ -100,11 +101,13 @@ json Commands::back_or_forth(std::vector<Session::Undo>& from, std::vector<Sessi
             const bool runs = command.contains("run");
             const auto ended = s.lost_by_rebuild();
             if (runs) run_in_world(command.at("run"));
+            const auto replaced =
+                json::array({editing::replace_operation(world_text().text, command.at("text"))});
             set_world_text(command.at("text"));
-            const json replaced = json::array({{{"do", "text"}, {"text", command.at("text")}}});
             tell_world_edit(title, of_world_edit(s.edited_file(world_text().path), replaced), runs, ended);
         } else {
             s.act(command, std::nullopt, told(command, title));
+            if (entry.document) s.note_parameters();
         }
     } catch (...) {  // what it touched is not there any more; the other steps stay
         back_again();

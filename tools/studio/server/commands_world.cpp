@@ -173,6 +173,11 @@ json Commands::world_save() {
     RunInput wanted = s.begun_;  // with the text that the system had: its file may have changed
     wanted.world = file, wanted.world_text = world.text;
     s.make_run(wanted);  // a world in which the system cannot run is not written
+    auto forms = of_world(s.input_.system, file, s.input_.seed);
+    if (file != world.path) {
+        const auto copy = of_world_copy(s.edited_file(world.path), file);
+        forms = {copy.shell, copy.python + '\n' + forms.python};
+    }
     write_file(file, world.text);
     world.saved = world.text, world.path = file;
     const auto before = s.input_;
@@ -186,7 +191,7 @@ json Commands::world_save() {
     }
     tell_begun_anew("world_save",
                     "save " + std::filesystem::path(file).filename().string() + " and begin anew in it",
-                    of_world(s.input_.system, file, s.input_.seed), ended);
+                    forms, ended);
     s.tell(s.world_message()), s.tell(world_document());
     return {{"file", file}};
 }

@@ -136,34 +136,57 @@ namespace {
 
 constexpr std::size_t most_edited = 8000;  ///< characters of operations
 
+std::string text_of(const nlohmann::json& operations) {
+    return operations.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 /// Empty when there is no file, and for operations that are too long.
-Equivalent forms_of(const EditedFile& file, const nlohmann::json& operations, const std::string& begin,
-                    const std::string& end) {
-    const auto text = operations.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-    if (text.size() > most_edited) return {};
-    Equivalent out;
-    if (!file.path.empty()) {
-        out.shell = fmt::format("forage edit {} {}", quoted(file.path), quoted(text));
-        for (const auto& p : file.plugins) out.shell += " --plugin " + quoted(p);
-    }
+std::string command_of(const EditedFile& file, const nlohmann::json& operations) {
+    const auto text = text_of(operations);
+    if (file.path.empty() || text.size() > most_edited) return {};
+    std::string out = fmt::format("forage edit {} {}", quoted(file.path), quoted(text));
+    for (const auto& p : file.plugins) out += " --plugin " + quoted(p);
+    return out;
+}
+
+/// A call with a list of operations; empty when they are too long.
+std::string call_of(const std::string& begin, const nlohmann::json& operations) {
+    if (text_of(operations).size() > most_edited) return {};
     std::vector<std::string> lines;
     for (const auto& o : operations) lines.push_back(in_python(o));
-    out.python =
-        fmt::format("{}[{}]{}", begin, fmt::join(lines, ",\n" + std::string(begin.size() + 1, ' ')), end);
-    return out;
+    return fmt::format("{}[{}])", begin, fmt::join(lines, ",\n" + std::string(begin.size() + 1, ' ')));
 }
 
 }  // namespace
 
-Equivalent of_edit(const EditedFile& file, const nlohmann::json& operations, const nlohmann::json& ids) {
-    nlohmann::json all = operations;
-    for (std::size_t i = 0; i < all.size(); ++i)
-        if (ids[i].is_string() && all[i].value("do", "").starts_with("add_")) all[i]["id"] = ids[i];
-    return forms_of(file, all, "system.edit(", ")");
+Equivalent of_edit(const EditedFile& file, const nlohmann::json& in_shell, const nlohmann::json& in_python) {
+    return {command_of(file, in_shell),
+            in_python.empty() ? "# The text of the file differs, but not what a System holds of it."
+                              : call_of("system.edit(", in_python)};
+}
+
+Equivalent of_save(const EditedFile& file, const std::string& to, const nlohmann::json& in_shell,
+                   const nlohmann::json& in_python) {
+    Equivalent out;
+    if (to != file.path) {
+        out.shell = command_of(file, in_shell);
+        if (!out.shell.empty()) out.shell += " -o " + quoted(to);
+    } else if (!in_shell.empty()) {  // else the commands before have written it
+        out.shell = command_of(file, in_shell);
+    }
+    const auto edit = in_python.empty() ? std::string() : call_of("system.edit(", in_python) + '\n';
+    if (edit != "\n") out.python = edit + fmt::format("system.save({})", literal(to));
+    return out;
 }
 
 Equivalent of_world_edit(const EditedFile& file, const nlohmann::json& operations) {
-    return forms_of(file, operations, fmt::format("forage.edit_file({}, ", literal(file.path)), ")");
+    return {command_of(file, operations),
+            call_of(fmt::format("forage.edit_file({}, ", literal(file.path)), operations)};
+}
+
+Equivalent of_world_copy(const EditedFile& file, const std::string& to) {
+    return {fmt::format("forage edit {} '[]' -o {}", quoted(file.path), quoted(to)),
+            fmt::format("forage.edit_file({}, [], save_as={})", literal(file.path), literal(to))};
 }
 
 Equivalent of_move(const std::string& name, double x, double y, double heading) {

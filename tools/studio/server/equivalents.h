@@ -34,11 +34,16 @@ struct EditedFile {
     std::string path;
     std::vector<std::string> plugins = {};
 };
-/// Operations on the system in a file, with the ids that they have made. Both forms are empty when the
-/// operations have more than 8000 characters.
-Equivalent of_edit(const EditedFile& file, const nlohmann::json& operations, const nlohmann::json& ids);
+/// Operations on the system in a file, and on a System of Python; each form is empty when its operations have
+/// more than 8000 characters.
+Equivalent of_edit(const EditedFile& file, const nlohmann::json& in_shell, const nlohmann::json& in_python);
+/// A system that is saved in the file `to`, with operations that are still to be carried out.
+Equivalent of_save(const EditedFile& file, const std::string& to, const nlohmann::json& in_shell,
+                   const nlohmann::json& in_python);
 /// Operations on the world in a file, likewise.
 Equivalent of_world_edit(const EditedFile& file, const nlohmann::json& operations);
+/// A world that is saved under another name.
+Equivalent of_world_copy(const EditedFile& file, const std::string& to);
 /// A robot or an object that is moved. `forage run` has no option for it.
 Equivalent of_move(const std::string& name, double x, double y, double heading);
 /// A new trial; `start` is -1 for the next start pose.

@@ -21,6 +21,7 @@
 #include "tools/studio/server/equivalents.h"
 #include "tools/studio/server/history.h"
 #include "tools/studio/server/recovery.h"
+#include "tools/studio/server/scripted_system.h"
 #include "tools/studio/server/settings.h"
 #include "tools/studio/server/touches.h"
 
@@ -168,8 +169,9 @@ class Session {
     /// Opens another system, and tells the pages. Throws InputError, and leaves everything as it is then.
     void open_document(const RunInput& input);
     /// Makes the run what the document says, as far as that can run, and tells the pages.
-    /// Without `forms`, they are made from the difference of the texts.
-    void follow_document(const std::string& title, Equivalent forms = {});
+    /// `operations` is what an edit has carried out on the text before.
+    void follow_document(const std::string& title, const std::string& text_before = {},
+                         const json& operations = json::array());
     /// Builds the run anew; groups and connections that did not change keep their states. Returns false, with
     /// the run as it was, when the system cannot run.
     /// At cycle 0 it begins anew, unless it `goes_on` there, too.
@@ -178,10 +180,10 @@ class Session {
     std::vector<std::string> lost_by_rebuild() const;
     /// Changes parameters in the document, too, when its items have them. Returns whether that is a step.
     bool set_in_document(const std::vector<std::string>& assignments, const std::string& title);
+    void note_parameters();  ///< the run has the parameters of the document
     /// Takes a step of the document back, or forth.
     void step_document(bool back);
     void tell_document();
-    void note_text();     ///< pages know the text of the document
     void note_opening();  ///< the system of the document is another one now
     /// Gives a description of parameters the values of the saved file. Returns false for an item of another
     /// file.
@@ -217,7 +219,7 @@ class Session {
     Changes changed_;
     std::optional<Sampler> sampler_;
     std::optional<Document> document_;
-    std::string told_text_;  ///< of the document, as pages were last told, when it could be read
+    ScriptedSystem scripted_;
     std::optional<WorldText> world_text_;
     model::System built_;                      ///< the document's system that runs
     std::vector<model::System> others_;        ///< systems that run beside it

@@ -11,7 +11,6 @@
 #include "core/xml/writer.h"
 #include "tools/api/describe_json.h"
 #include "tools/api/sources.h"
-#include "tools/api/text_operation.h"
 #include "tools/studio/server/backups.h"
 #include "tools/studio/server/document_problems.h"
 #include "tools/studio/server/session.h"
@@ -51,7 +50,7 @@ void Session::begin_document(const RunInput& input) {
     }
     world_text_.reset();
     built_ = document_->system();
-    told_text_.clear(), note_text();
+    scripted_.begin(*document_);
     current_ = true, outside_ = false;
     problems_ = document_->problems(run_->registry(), run_->environment());
     changed_.clear(), undo_.clear(), redo_.clear();
@@ -88,7 +87,7 @@ void Session::open_with_mistakes(const RunInput& input, const Diagnostics& found
     }
     begin_document(nothing);
     document_ = std::move(document);
-    told_text_.clear(), note_text();
+    scripted_.begin(*document_);
     current_ = false;
     problems_ = document_->located(found);
     wanted_ = input, mistakes_ = found;
@@ -179,10 +178,6 @@ json Session::document_message() const {
             {"running_is_current", current_}};
 }
 
-void Session::note_text() {
-    if (document_->readable()) told_text_ = document_->text();
-}
-
 EditedFile Session::edited_file(const std::string& path) const {
     if (backup_of(path)) return {};
     if (comes_with_forage(path)) return {std::filesystem::path(path).filename().string(), input_.plugins};
@@ -190,7 +185,6 @@ EditedFile Session::edited_file(const std::string& path) const {
 }
 
 void Session::tell_document() {
-    note_text();
     status_due_ = true;
     tell(document_message());
 }
@@ -219,17 +213,24 @@ bool Session::set_in_document(const std::vector<std::string>& assignments, const
         },
         title);
     for (const auto& a : in(built_)) model::set(built_, a);
-    if (current_) input_.text = document_->text(), built_ = document_->system();
+    note_parameters();
     return step;
+}
+
+void Session::note_parameters() {
+    if (current_) input_.text = document_->text(), built_ = document_->system();
 }
 
 void Session::step_document(bool back) { back ? document_->undo() : document_->redo(); }
 
-void Session::follow_document(const std::string& title, Equivalent forms) {
-    const auto complete = [&] {
-        if (!forms.python.empty() || !document_->readable() || told_text_.empty()) return;
-        const auto operation = editing::text_operation(told_text_, document_->text());
-        forms = of_edit(edited_file(document_->path()), json::array({operation}), json::array({nullptr}));
+void Session::follow_document(const std::string& title, const std::string& text_before,
+                              const json& operations) {
+    std::optional<Equivalent> forms;
+    const auto form = [&] {
+        if (!forms)
+            forms = scripted_.edit(edited_file(document_->path()), text_before, operations, *document_,
+                                   run_->registry());
+        return *forms;
     };
     const auto& now = document_->system();
     const auto changes = model::parameter_changes(built_, now, run_->registry());
@@ -252,11 +253,11 @@ void Session::follow_document(const std::string& title, Equivalent forms) {
             }
             // What a run does not know is said of the system.
             const bool more = built_ != now;
-            if (more) complete(), built_ = now;
+            if (more) built_ = now;
             if (!assignments.empty()) {
                 auto same = of_assignments(assignments, run_->cycle());
-                if (more && !forms.shell.empty()) same.shell = forms.shell;
-                if (more && !forms.python.empty()) same.python += '\n' + forms.python;
+                if (more && !form().shell.empty()) same.shell = form().shell;
+                if (more && !form().python.empty()) same.python += '\n' + form().python;
                 act({{"command", "set"}, {"assignments", assignments}}, std::nullopt,
                     {{"title", title}, {"values", values}, {"shell", same.shell}, {"python", same.python}});
             }
@@ -268,15 +269,14 @@ void Session::follow_document(const std::string& title, Equivalent forms) {
     }
     if (current_) input_.text = document_->text();
     if (generation_ == before) {
-        complete();
         ++generation_, ++version_;
         tell({{"type", "action"},
               {"generation", generation_},
               {"cycle", run_->cycle()},
               {"command", "edit"},
               {"title", title},
-              {"shell", forms.shell},
-              {"python", forms.python},
+              {"shell", form().shell},
+              {"python", form().python},
               {"undoable", true},
               {"ended", std::move(ended)}});
     }

@@ -1,0 +1,121 @@
+#include "tools/studio/server/scripted_system.h"
+
+#include <algorithm>
+#include <exception>
+
+#include "core/model/changes.h"
+#include "core/model/lookup.h"
+#include "core/model/operations.h"
+#include "core/run/input_error.h"
+#include "core/xml/patch.h"
+#include "core/xml/writer.h"
+#include "tools/api/operations.h"
+#include "tools/api/text_parts.h"
+
+namespace forage::studio {
+namespace {
+
+using nlohmann::json;
+
+/// The operations that give a system the parameters of another one, and switch its modules on or off as
+/// there; without those that need more than that.
+json parameter_operations(model::System before, const model::System& after, const Registry& registry) {
+    json out = json::array();
+    for (auto& process : before.processes) {
+        const auto it = std::ranges::find(after.processes, process.id, &model::Process::id);
+        if (it == after.processes.end() || it->module_enabled == process.module_enabled) continue;
+        process.module_enabled = it->module_enabled;
+        out.push_back(
+            {{"do", "set"}, {"id", process.id}, {"property", "enabled"}, {"value", it->module_enabled}});
+    }
+    const auto changes = model::parameter_changes(before, after, registry);
+    for (const auto& change : changes.value_or(std::vector<model::Assignment>())) {
+        const auto& settings = model::find_use(after, change.id)->settings;
+        const auto it = std::ranges::find(settings, change.parameter->name, &model::Setting::name);
+        out.push_back({{"do", "parameter"},
+                       {"id", change.id},
+                       {"name", change.parameter->name},
+                       {"value", it == settings.end() ? json() : json(it->value)}});
+    }
+    return out;
+}
+
+void carry_out_all(const json& operations, model::System& system, const Registry& registry,
+                   const std::string& path) {
+    for (const auto& o : operations) editing::carry_out(o, system, registry, path);
+}
+
+/// The text of a file after operations; empty when it cannot have them.
+std::string text_after(const json& operations, const std::string& text, const std::string& path,
+                       const Registry& registry) {
+    try {
+        auto document = Document::unsaved(path, text);
+        document.edit([&](model::System& system) { carry_out_all(operations, system, registry, path); },
+                      "edit");
+        return document.text();
+    } catch (const std::exception&) {
+        return {};
+    }
+}
+
+/// The parts in which two texts differ, as operations.
+json parts(const std::string& before, const std::string& after) {
+    return before == after ? json::array() : json::array({editing::replace_operation(before, after)});
+}
+
+}  // namespace
+
+void ScriptedSystem::begin(const Document& document) {
+    text_.clear();
+    if (document.readable()) text_ = document.text(), system_ = document.system();
+}
+
+ScriptedSystem::Operations ScriptedSystem::follow(const std::string& before, const json& operations,
+                                                  const Document& now, const Registry& registry) {
+    // `replace` means the text of the file in the shell, and what the model writes in the studio.
+    const bool is_text = std::ranges::any_of(operations, [](const auto& o) { return o["do"] == "replace"; });
+    const json given = is_text ? json::array() : operations;
+    json all = given;
+    model::System scripted = system_;
+    bool same = false;
+    try {
+        carry_out_all(given, scripted, registry, now.path());
+        const auto set = parameter_operations(scripted, now.system(), registry);
+        carry_out_all(set, scripted, registry, now.path());
+        all.insert(all.end(), set.begin(), set.end());
+        same = !all.empty() && xml::same_content(scripted, now.system());
+    } catch (const std::exception&) {  // what an operation needs has gone since
+    }
+    Operations out;
+    const bool is_known = text_ == before && all == given;
+    if (same && (is_known || text_after(all, text_, now.path(), registry) == now.text()))
+        out.in_shell = all;
+    else
+        out.in_shell = parts(text_, now.text());
+    out.in_python = same ? all : parts(xml::write_system(system_), xml::write_system(now.system()));
+    text_ = now.text();
+    system_ = same ? std::move(scripted) : now.system();
+    return out;
+}
+
+Equivalent ScriptedSystem::edit(const EditedFile& file, const std::string& before, const json& operations,
+                                const Document& now, const Registry& registry) {
+    if (!now.readable()) return {};
+    if (text_.empty()) return begin(now), Equivalent();
+    const auto all = follow(before, operations, now, registry);
+    return of_edit(file, all.in_shell, all.in_python);
+}
+
+Equivalent ScriptedSystem::save(const EditedFile& file, const Document& now, const std::string& to,
+                                const Registry& registry) {
+    if (!now.readable() || text_.empty()) return {};
+    const auto all = follow({}, json::array(), now, registry);
+    if (!now.path().empty()) model::move_files(system_, now.path(), to, registry);
+    return of_save(file, to, all.in_shell, all.in_python);
+}
+
+void ScriptedSystem::note_text(const Document& saved) {
+    if (!text_.empty() && saved.readable()) text_ = saved.text();
+}
+
+}  // namespace forage::studio

@@ -1,0 +1,43 @@
+// The system of a document as the commands and the Python have made it that do the same as the studio.
+#pragma once
+
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "core/model/system.h"
+#include "core/types/registry.h"
+#include "tools/api/document.h"
+#include "tools/studio/server/equivalents.h"
+
+namespace forage::studio {
+
+/// `forage edit` works on the text of a file, and `System.edit()` on what a System holds of it. Both follow
+/// the document; parameters that were set in the run get into them with the next edit, or when it is saved.
+class ScriptedSystem {
+  public:
+    /// Scripts begin with the file as the document has it.
+    void begin(const Document& document);
+    /// The forms of what has happened to the document since the last forms: `operations`, with the ids that
+    /// they made, were carried out on the text `before`; none for another kind of edit. Empty when the
+    /// document has no system.
+    Equivalent edit(const EditedFile& file, const std::string& before, const nlohmann::json& operations,
+                    const Document& now, const Registry& registry);
+    /// The forms of saving the document in the file `to`.
+    Equivalent save(const EditedFile& file, const Document& now, const std::string& to,
+                    const Registry& registry);
+    /// Saving has changed the text: names of files in it.
+    void note_text(const Document& saved);
+
+  private:
+    struct Operations {
+        nlohmann::json in_shell = nlohmann::json::array(), in_python = nlohmann::json::array();
+    };
+    Operations follow(const std::string& before, const nlohmann::json& operations, const Document& now,
+                      const Registry& registry);
+
+    std::string text_;  ///< of the file; empty before it had a system
+    model::System system_;
+};
+
+}  // namespace forage::studio
