@@ -23,10 +23,10 @@ struct Expression {
     bool empty() const { return text.empty(); }
 };
 
-/// A change of a parameter while the system runs.
+/// A change of a parameter, or of the world, while the system runs.
 struct ScheduledChange {
     Expression when;    ///< a condition
-    Expression change;  ///< "WHERE.parameter=value"
+    Expression change;  ///< "WHERE.parameter=value", "move NAME=X,Y" or "begin_trial"
     std::string text() const { return when.text + ": " + change.text; }
 };
 

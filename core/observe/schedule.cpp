@@ -3,16 +3,24 @@
 namespace forage::observe {
 
 void Schedule::check(const engine::Simulation& simulation, Diagnostics& diagnostics) const {
-    std::vector<model::Assignment> changes;
-    for (const auto& e : entries_) changes.push_back(e.change);
-    simulation.check(changes, diagnostics);
+    simulation.check(assignments(), diagnostics);
+}
+
+std::vector<model::Assignment> Schedule::assignments() const {
+    std::vector<model::Assignment> out;
+    for (const auto& e : entries_)
+        if (const auto* assignment = std::get_if<model::Assignment>(&e.change)) out.push_back(*assignment);
+    return out;
 }
 
 void Schedule::before_cycle(RunView& run) {
     if (waiting_ == 0) return;
     for (auto& e : entries_)
         if (!e.cycle && e.when.holds(run.simulation, run.time)) {
-            run.simulation.set(e.change);
+            if (const auto* assignment = std::get_if<model::Assignment>(&e.change))
+                run.simulation.set(*assignment);
+            else
+                std::get<Action>(e.change)(run);
             e.cycle = run.time.cycle;
             --waiting_;
         }
@@ -20,12 +28,20 @@ void Schedule::before_cycle(RunView& run) {
 
 std::unique_ptr<Schedule> make_schedule(const std::vector<model::ScheduledChange>& changes,
                                         const model::System& system, const Registry& registry,
-                                        const engine::Layout& layout, bool trials, Diagnostics& diagnostics) {
+                                        const engine::Layout& layout, bool trials, Diagnostics& diagnostics,
+                                        const ReadAction& read_action) {
     auto out = std::make_unique<Schedule>();
     for (const auto& [when, what] : changes) {
         const std::string_view option = when.at.file ? "at" : "--schedule";
         auto condition = parse_condition(layout, trials, when.text, option, diagnostics, when.at);
-        auto change = model::parse_assignment(system, registry, what.text, option, diagnostics, what.at);
+        auto action = read_action ? read_action(what, option, diagnostics) : std::nullopt;
+        std::optional<std::variant<model::Assignment, Schedule::Action>> change;
+        if (action && *action)
+            change = std::move(*action);
+        else if (auto assignment = action ? std::nullopt
+                                          : model::parse_assignment(system, registry, what.text, option,
+                                                                    diagnostics, what.at))
+            change = std::move(*assignment);
         if (condition && change)
             out->add(std::move(*condition), std::move(*change), when.text + ": " + what.text);
     }

@@ -80,7 +80,7 @@ struct RunSpec {
     std::vector<model::RecordingSpec> recordings;
     std::vector<model::Expression> plots;
     std::string plot_format = "png";              ///< png, svg or pdf
-    std::vector<model::ScheduledChange> changes;  ///< changes of parameters during the run
+    std::vector<model::ScheduledChange> changes;  ///< changes of parameters and of the world
     std::vector<model::ManipulationSpec> manipulations;
     std::vector<model::Measure> measures;
     bool paths = true;  ///< whether the robots' paths are recorded

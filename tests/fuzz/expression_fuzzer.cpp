@@ -4,6 +4,7 @@
 
 #include "core/engine/simulation.h"
 #include "core/model/edit.h"
+#include "core/model/world_change.h"
 #include "core/observe/condition.h"
 #include "core/observe/manipulation_spec.h"
 #include "core/observe/schedule.h"
@@ -73,6 +74,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             break;
         case 3:
             try {
+                expression::parse_world_change(expression::parse_change(text).change.text);
                 observe::make_schedule({expression::parse_change(text)}, small.system, small.registry,
                                        simulation.layout(), true, diagnostics)
                     ->check(simulation, diagnostics);

@@ -331,6 +331,70 @@ def test_robots_are_moved_and_begin_trials(dac):
         without.move(name, 0, 0)
 
 
+def options_of(actions):
+    return [word for action in actions for word in shlex.split(action["shell"])]
+
+
+def test_parameters_moves_and_trials_are_options_of_a_run(command):
+    with Studio(os.environ["FORAGE"], str(SYSTEMS / "dac_foraging.iqr"), "--world", str(WORLD)) as studio:
+        page = Page(studio)
+        page.do("pause")
+        robot = page.last("world")["robots"][0]["name"]
+        page.do("move", robot=robot, x=0.25, y=-1.5, heading=1)
+        page.do("set", assignments=["Bug/Motor.excGain=0.5"])
+        for name, members in (
+            ("move", {"robot": robot, "x": 0.5, "y": -0.5}),
+            ("set", {"assignments": ["Bug/Light.threshold=0.25", "Bug/Motor.excGain=0.75"]}),
+            ("begin_trial", {}),
+            ("begin_trial", {"start": 0}),
+            ("move", {"robot": robot, "x": -1e-7, "y": 0.1, "heading": -2.5}),
+            ("undo", {}),
+        ):
+            page.do("step", cycles=40)
+            page.do(name, **members)
+        page.do("step", cycles=40)
+        page.do("pause")
+        wanted = page.do("digest")["digest"]
+        actions = [m for m in page.messages if m["type"] == "action"]
+        page.close()
+    assert len(actions) == 8
+    printed = command("run", SYSTEMS / "dac_foraging.iqr", "--world", WORLD, *options_of(actions), "--cycles", 280, "--hash", "-o", "")
+    assert wanted in printed
+    assert wanted not in command("run", SYSTEMS / "dac_foraging.iqr", "--world", WORLD, "--cycles", 280, "--hash", "-o", "")
+
+
+def test_a_recording_is_options_of_a_run_and_probes(tmp_path, command, dac):
+    file = tmp_path / "page" / "light.csv"
+    file.parent.mkdir()
+    with Studio(os.environ["FORAGE"], str(SYSTEMS / "dac_foraging.iqr"), "--world", str(WORLD)) as studio:
+        page = Page(studio)
+        page.do("step", cycles=23)
+        page.do("sample", file=str(file), sources=["Bug/Light"], every=5)
+        page.do("step", cycles=100)
+        page.do("sample_stop")
+        page.do("step", cycles=20)
+        page.do("sample", file=str(tmp_path / "page/motor.npy"), sources=["mean(Bug/Motor)"], cycles=10)
+        page.do("step", cycles=20)
+        begin, end, bounded = [m for m in page.messages if m["type"] == "action"]
+        page.close()
+    assert [a["command"] for a in (begin, end, bounded)] == ["sample", "sample_stop", "sample"]
+    for action, name in ((end, "light.csv"), (bounded, "motor.npy")):
+        options = [word.replace(str(file.parent), str(tmp_path / "run")) for word in options_of([action])]
+        command("run", SYSTEMS / "dac_foraging.iqr", "--world", WORLD, "--cycles", 163, *options)
+        assert (tmp_path / "run" / name).read_bytes() == (file.parent / name).read_bytes()
+    assert "--record-until" not in begin["shell"]
+    names = {"run": dac}
+    dac.run(cycles=23)
+    exec(begin["python"], names)
+    dac.run(cycles=100)
+    exec(end["python"], names)
+    rows = [line.split(",") for line in file.read_text().splitlines()[1:]]
+    (recorded,) = names["recorded"]
+    assert recorded.cycles.tolist() == [int(row[0]) for row in rows]
+    assert recorded.data.reshape(len(rows), -1).tolist() == [[float(value) for value in row[1:]] for row in rows]
+    assert dac.probes == []
+
+
 def test_the_options_of_a_manipulation_are_those_of_the_page(command):
     with Studio(os.environ["FORAGE"], str(SYSTEMS / "dac_foraging.iqr"), "--world", str(WORLD)) as studio:
         page = Page(studio)

@@ -15,6 +15,13 @@ bug::World& world_of(Run& run);
 /// The number of the robot with this name, from 0; of the first one for an empty name. Throws InputError.
 std::size_t find_robot(Run& run, std::string_view name);
 
+/// Throws InputError when the world has no robot and no movable object with this name.
+void check_movable(Run& run, std::string_view name);
+/// Throws InputError for numbers that are not finite, and for a place more than 10 km away.
+void check_place(double x, double y, std::optional<double> heading);
+/// Throws InputError when the world has no such robot or start pose; both may be empty as for begin_trial().
+void check_start(Run& run, std::string_view robot, std::optional<std::size_t> start);
+
 /// Moves the robot or the movable object with this name to a place, m, where it is at rest. It turns to
 /// `heading`, rad to the left of the x axis, or keeps its own. Throws InputError for an unknown name, for a
 /// place more than 10 km away, when something is there, and while the robot is being reset.

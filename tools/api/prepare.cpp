@@ -18,6 +18,7 @@
 #include "core/run/score_recorder.h"
 #include "tools/api/motor_statistics.h"
 #include "tools/api/tables.h"
+#include "tools/api/world_actions.h"
 #include "tools/plot/plots.h"
 
 namespace forage {
@@ -112,8 +113,6 @@ CheckpointWriter& add_checkpoints(Run& run, const RunSpec& spec, const Sources& 
                                   const observe::Schedule& schedule) {
     const auto& wanted = *spec.checkpoint_every;
     const double cycles = wanted.in_seconds ? wanted.amount / run.seconds_per_cycle() : wanted.amount;
-    std::vector<model::Assignment> changes;
-    for (const auto& e : schedule.entries()) changes.push_back(e.change);
     CheckpointOrigin origin{FORAGE_VERSION,
                             spec.arguments,
                             std::filesystem::current_path().string(),
@@ -122,7 +121,7 @@ CheckpointWriter& add_checkpoints(Run& run, const RunSpec& spec, const Sources& 
                             0};
     return run.add(std::make_unique<CheckpointWriter>(
         spec.directory, static_cast<std::uint64_t>(std::max(1.0, std::round(std::min(cycles, 1e15)))),
-        std::move(origin), module_files(run.system(), run.registry(), changes)));
+        std::move(origin), module_files(run.system(), run.registry(), schedule.assignments())));
 }
 
 }  // namespace
@@ -147,7 +146,7 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
     Run& run = *made;
     StopCondition stop = StopCondition::make(length, run, diagnostics);
     auto schedule = observe::make_schedule(spec.changes, run.system(), run.registry(), run.layout(),
-                                           run.has_trials(), diagnostics);
+                                           run.has_trials(), diagnostics, actions_on(run));
     auto measures =
         std::make_unique<RunMeasures>(spec.measures, run.layout(), run.environment(), diagnostics);
     auto manipulations =

@@ -194,7 +194,8 @@ void add_run_options(CLI::App& run, RunOptions& options) {
             },
             "Change a parameter when a condition first holds: 'cycle N', 'trial N', 'N s', or comparisons of "
             "cycle, trial, seconds, cells 'Process/Group(x,y)' and mean(Process/Group), joined by 'and' and "
-            "'or'. See docs/reference/expressions.md; may be repeated"))
+            "'or'. Instead of WHERE=VALUE, 'move NAME=X,Y' moves a robot or an object (m), and 'begin_trial' "
+            "ends a trial. See docs/reference/expressions.md; may be repeated"))
         ->option_text("'WHEN: WHERE=VALUE'");
     run.add_option("--replay", o.input.replay,
                    "Table that modules of type moduleReplay play: cycle,process,target,v0,v1,...")

@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "core/model/world_change.h"
 #include "tests/support/catch.h"
 #include "tests/support/paths.h"
 
@@ -96,7 +97,8 @@ TEST_CASE("Every example of the reference is read") {
         {"change",
          [](const std::string& t) {
              const auto change = parse_change(t);
-             parse_condition(change.when.text), parse_assignment(change.change.text);
+             parse_condition(change.when.text);
+             if (!parse_world_change(change.change.text)) parse_assignment(change.change.text);
          }},
         {"manipulation",
          [](const std::string& t) {

@@ -55,7 +55,7 @@ json Commands::sample() {
     }
     begin_sampling(how);
     if (automatic) s.sampler_waits_ = how;
-    return {{"file", s.sampler_->file}};
+    return {{"file", s.sampler_->what.file}};
 }
 
 void Commands::begin_sampling(const json& how) {
@@ -85,8 +85,11 @@ void Commands::begin_sampling(const json& how) {
     for (const auto& source : files.front().sources) header.sources.push_back(source.what());
     header.every = every;
     Session::Sampler sampler;
-    sampler.file = file, sampler.every = every;
-    if (const auto cycles = whole(how, "cycles", 0, 1, 1'000'000'000'000)) sampler.left = cycles;
+    sampler.what = {sources, file, every, run().cycle()};
+    if (const auto cycles = whole(how, "cycles", 0, 1, 1'000'000'000'000)) {
+        sampler.left = cycles;
+        sampler.what.until = run().cycle() + cycles - 1;
+    }
     auto rows = mode == "append" && fs::exists(file)
                     ? continued(files.front().format, file, header)
                     : observe::open_row_file(files.front().format, partial(file), header);
@@ -94,12 +97,15 @@ void Commands::begin_sampling(const json& how) {
                              observe::Sampling{every, 0, std::nullopt, false});
     s.sampler_ = std::move(sampler);
     s.status_due_ = true;
-    const auto forms = of_sampling(sources, file, every);
+    tell_sampling("sample", "record into " + file, of_sampling(s.sampler_->what));
+}
+
+void Commands::tell_sampling(const std::string& command, const std::string& title, const Equivalent& forms) {
     s.tell({{"type", "action"},
             {"generation", s.generation_},
             {"cycle", run().cycle()},
-            {"command", "sample"},
-            {"title", "record into " + file},
+            {"command", command},
+            {"title", title},
             {"shell", forms.shell},
             {"python", forms.python},
             {"undoable", false}});
@@ -114,7 +120,12 @@ void Commands::begin_waiting_sampler() {
 json Commands::sample_stop() {
     if (!s.sampler_ && s.sampler_waits_.is_null()) throw InputError("the sampler does not run");
     json out = {{"file", nullptr}, {"rows", 0}};
-    if (s.sampler_) out = {{"file", s.sampler_->file}, {"rows", s.sampler_->rows}};
+    if (s.sampler_) {
+        auto what = s.sampler_->what;
+        out = {{"file", what.file}, {"rows", s.sampler_->rows}};
+        if (run().cycle() > what.from) what.until = run().cycle() - 1;
+        tell_sampling("sample_stop", "stop recording", of_sampling_end(what));
+    }
     s.sampler_waits_ = nullptr, s.status_due_ = true;
     s.close_sampler();
     return out;

@@ -60,8 +60,9 @@ Equivalent Commands::same(const json& command) {
     if (what == "manipulate") return of_manipulation(driven(command), run().cycle());
     if (what == "move")
         return of_move(command.at(command.contains("robot") ? "robot" : "object").get<std::string>(),
-                       command.at("x"), command.at("y"), command.at("heading"));
-    if (what == "begin_trial") return of_trial(command.at("robot").get<std::string>(), command.at("start"));
+                       command.at("x"), command.at("y"), command.at("heading"), run().cycle());
+    if (what == "begin_trial")
+        return of_trial(command.at("robot").get<std::string>(), command.at("start"), run().cycle());
     if (what == "revoke") {
         const auto now = describe(group(command.at("group").get<std::string>()));
         const auto& actions = s.history_.actions();

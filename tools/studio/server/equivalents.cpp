@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -189,13 +190,16 @@ Equivalent of_world_copy(const EditedFile& file, const std::string& to) {
             fmt::format("forage.edit_file({}, [], save_as={})", literal(file.path), literal(to))};
 }
 
-Equivalent of_move(const std::string& name, double x, double y, double heading) {
-    return {"", fmt::format("run.move({}, x={}, y={}, heading={})", literal(name), x, y, heading)};
+Equivalent of_move(const std::string& name, double x, double y, double heading, std::uint64_t cycle) {
+    return {"--schedule " + quoted(fmt::format("cycle {}: move {}={},{},{}", cycle, name, x, y, heading)),
+            fmt::format("run.move({}, x={}, y={}, heading={})", literal(name), x, y, heading)};
 }
 
-Equivalent of_trial(const std::string& robot, int start) {
+Equivalent of_trial(const std::string& robot, int start, std::uint64_t cycle) {
     const std::string where = start < 0 ? "" : fmt::format("start={}, ", start);
-    return {"", fmt::format("run.begin_trial({}robot={})", where, literal(robot))};
+    const std::string at = start < 0 ? "" : fmt::format("={}", start);
+    return {"--schedule " + quoted(fmt::format("cycle {}: begin_trial {}{}", cycle, robot, at)),
+            fmt::format("run.begin_trial({}robot={})", where, literal(robot))};
 }
 
 namespace {
@@ -215,16 +219,33 @@ Equivalent of_world(const std::string& system, const std::string& world, std::ui
     return {world.empty() ? "" : "--world " + quoted(world), opened_in_python(system, world, seed)};
 }
 
-Equivalent of_sampling(const std::vector<std::string>& sources, const std::string& file,
-                       std::uint64_t every) {
-    Equivalent out;
-    for (const auto& source : sources) {
-        out.shell += fmt::format("{}--record {}", out.shell.empty() ? "" : " ", quoted(source + "=" + file));
-        out.python += fmt::format("{}run.probe({}{})", out.python.empty() ? "" : "\n", literal(source),
-                                  every > 1 ? fmt::format(", every={}", every) : "");
-    }
-    if (every > 1) out.shell += fmt::format(" --every {}", every);
-    return out;
+namespace {
+
+std::string recording_options(const Sampled& s) {
+    const std::filesystem::path file = s.file;
+    std::string out;
+    for (const auto& source : s.sources)
+        out += fmt::format("--record {} ", quoted(source + "=" + file.filename().string()));
+    if (s.every > 1) out += fmt::format("--record-every {} ", s.every);
+    // A row is written at multiples of the interval; options count it from the first one.
+    if (s.from > 0) out += fmt::format("--record-from {} ", (s.from + s.every - 1) / s.every * s.every);
+    if (s.until) out += fmt::format("--record-until {} ", *s.until);
+    return out + "-o " + quoted(file.has_parent_path() ? file.parent_path().string() : ".");
+}
+
+}  // namespace
+
+Equivalent of_sampling(const Sampled& s) {
+    std::vector<std::string> probes;
+    for (const auto& source : s.sources)
+        probes.push_back(fmt::format("run.probe({}{})", literal(source),
+                                     s.every > 1 ? fmt::format(", every={}", s.every) : ""));
+    return {recording_options(s), fmt::format("probes = [{}]", fmt::join(probes, ", "))};
+}
+
+Equivalent of_sampling_end(const Sampled& s) {
+    return {recording_options(s),
+            "recorded = [probe.take() for probe in probes]\nfor probe in probes: probe.remove()"};
 }
 
 }  // namespace forage::studio

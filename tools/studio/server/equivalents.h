@@ -44,15 +44,23 @@ Equivalent of_save(const EditedFile& file, const std::string& to, const nlohmann
 Equivalent of_world_edit(const EditedFile& file, const nlohmann::json& operations);
 /// A world that is saved under another name.
 Equivalent of_world_copy(const EditedFile& file, const std::string& to);
-/// A robot or an object that is moved. `forage run` has no option for it.
-Equivalent of_move(const std::string& name, double x, double y, double heading);
-/// A new trial; `start` is -1 for the next start pose.
-Equivalent of_trial(const std::string& robot, int start);
+/// A robot or an object that is moved before the cycle with this number.
+Equivalent of_move(const std::string& name, double x, double y, double heading, std::uint64_t cycle);
+/// A new trial, likewise; `start` is -1 for the next start pose.
+Equivalent of_trial(const std::string& robot, int start, std::uint64_t cycle);
 /// A run that begins anew with a seed.
 Equivalent of_restart(const std::string& system, const std::string& world, std::uint64_t seed);
 /// A run that begins anew in another world; `world` is empty for none.
 Equivalent of_world(const std::string& system, const std::string& world, std::uint64_t seed);
-/// A recording into a file.
-Equivalent of_sampling(const std::vector<std::string>& sources, const std::string& file, std::uint64_t every);
+/// A recording into a file, of every n-th cycle from the first to the last one.
+struct Sampled {
+    std::vector<std::string> sources;
+    std::string file;
+    std::uint64_t every = 1, from = 0;
+    std::optional<std::uint64_t> until = {};
+};
+/// Its begin, and its end.
+Equivalent of_sampling(const Sampled& sampled);
+Equivalent of_sampling_end(const Sampled& sampled);
 
 }  // namespace forage::studio

@@ -210,7 +210,7 @@ json Session::status() const {
     json manipulations = json::array(), sampler = nullptr;
     for (const auto& [group, m] : touches_->groups())
         manipulations.push_back(run_->layout().groups[static_cast<std::size_t>(group)].path);
-    if (sampler_) sampler = {{"file", sampler_->file}, {"rows", sampler_->rows}};
+    if (sampler_) sampler = {{"file", sampler_->what.file}, {"rows", sampler_->rows}};
     const double rate = running_ ? measured_rate_ : 0;
     return {{"type", "status"},
             {"running", running_},
@@ -308,14 +308,14 @@ void Session::cycle() {
     pages_time_ += rows_time_;
     if (!sampler_) return;
     sampler_->recorder->record(run_->simulation());
-    if (done % sampler_->every == 0) ++sampler_->rows;
+    if (done % sampler_->what.every == 0) ++sampler_->rows;
     if (sampler_->left && --*sampler_->left == 0) close_sampler();
 }
 
 void Session::close_sampler() {
     if (!sampler_) return;
     sampler_->recorder->close();
-    finish(sampler_->file);
+    finish(sampler_->what.file);
     sampler_.reset();
     status_due_ = true;
 }

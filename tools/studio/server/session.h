@@ -107,8 +107,8 @@ class Session {
         std::string path, text, saved;
     };
     struct Sampler {
-        std::string file;
-        std::uint64_t every = 1, rows = 0;
+        Sampled what;
+        std::uint64_t rows = 0;
         std::optional<std::uint64_t> left;  ///< cycles
         std::optional<observe::Recorder> recorder;
     };
