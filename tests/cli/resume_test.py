@@ -27,7 +27,7 @@ EVERYTHING = ("run", DAC, "--world", WORLD, "--seed", "3", "--hash", "-q",
               "--record-every", "7", "--record-mean",
               "-p", "time:Adaptive/discrepancy", "-p", "space:Bug/Light@100,900", "-p", "movie:Adaptive/CS",
               "--schedule", "max(Bug/Light) > 0.3: Adaptive.eta=0.02", "--schedule", "cycle 1000: Selection/Explore.probability=0.3",
-              "--schedule", "cycle 700: move Bug=0.5,0.5,1", "--schedule", "cycle 1500: begin_trial",
+              "--schedule", "cycle 650: move Bug=0.5,0.5,1", "--schedule", "cycle 1500: begin_trial",
               "--add", "Bug/Light(3,1)=0.01; every 13; from cycle 200; times 30")
 
 
