@@ -16,7 +16,7 @@ namespace {
 constexpr const char* move_hint =
     "for example 'move Bug=0.5,-0.5' (m), or with a heading 'move Bug=0.5,-0.5,1.57' (rad)";
 
-/// Parts of `text` know where they are in `whole`, which contains it.
+/// Where a part of a text begins in it.
 std::size_t place_in(std::string_view whole, std::string_view part) {
     return static_cast<std::size_t>(part.data() - whole.data());
 }
@@ -25,14 +25,15 @@ Move read_move(std::string_view whole, std::string_view rest) {
     const auto equals = std::min(rest.rfind('='), rest.size());
     const auto name = model::trim(rest.substr(0, equals));
     std::vector<double> numbers;
-    for (auto left = rest.substr(std::min(equals + 1, rest.size())); !left.empty();) {
-        const auto comma = std::min(left.find(','), left.size());
-        const auto word = model::trim(left.substr(0, comma));
+    for (auto at = equals; at < rest.size();) {
+        const auto end = std::min(rest.find(',', at + 1), rest.size());
+        const auto word = model::trim(rest.substr(at + 1, end - at - 1));
         const auto number = parse_number<double>(word);
         if (!number || !std::isfinite(*number))
-            throw Mistake(place_in(whole, left), fmt::format("'{}' is not a number", word), move_hint);
+            throw Mistake(place_in(whole, word.empty() ? rest.substr(at) : word),
+                          fmt::format("'{}' is not a number", word), move_hint);
         numbers.push_back(*number);
-        left.remove_prefix(std::min(comma + 1, left.size()));
+        at = end;
     }
     if (name.empty() || numbers.size() < 2 || numbers.size() > 3)
         throw Mistake(0, "a move has a name and a place", move_hint);
@@ -59,7 +60,7 @@ NewTrial read_trial(std::string_view whole, std::string_view rest) {
 
 std::optional<WorldChange> parse_world_change(std::string_view text) {
     const auto words = model::trim(text);
-    const auto verb = words.substr(0, words.find_first_of(" \t"));
+    const auto verb = words.substr(0, words.find(' '));
     const auto rest = words.substr(verb.size());
     if (verb == "move") return read_move(text, rest);
     if (verb == "begin_trial") return read_trial(text, rest);

@@ -1,6 +1,7 @@
 """The studio says of each action how to do it in Python: it gives the same run."""
 import difflib
 import os
+import re
 import shlex
 import sys
 
@@ -104,12 +105,16 @@ def test_an_edit_is_repeated_in_python(tmp_path):
 
 def repeat(forms, system, command, file, copy):
     """Does what a page has done once more, in Python and in the shell."""
+    class Ignored(dict):
+        params = {}
+
     for python, shell in forms:
-        exec(python, {"system": system})
-        if shell:
-            words = shlex.split(shell)
-            assert words[:2] == ["forage", "edit"]
-            command(*words[1:2], *(word.replace(str(file), str(copy)) for word in words[2:]))
+        exec(python, {"system": system, "run": Ignored()})
+        for line in shell.splitlines():
+            words = shlex.split(line)
+            if words[0] == "forage":
+                assert words[1] == "edit"
+                command("edit", *(word.replace(str(file), str(copy)) for word in words[2:]))
 
 
 def test_changes_of_the_text_and_undo_are_repeated_in_python_and_the_shell(tmp_path, command):
@@ -150,34 +155,124 @@ def test_changes_of_the_text_and_undo_are_repeated_in_python_and_the_shell(tmp_p
     assert (tmp_path / "python.iqr").read_text().splitlines() == (tmp_path / "studio.iqr").read_text().splitlines()
 
 
+class Editing:
+    """A page that edits a copy of a system, and the file and the System that do what its log says."""
+
+    def __init__(self, folder, command, source, *options):
+        self.file, self.copy, self.command = folder / "edited.iqr", folder / "copy.iqr", command
+        self.file.write_bytes(source.read_bytes())
+        self.copy.write_bytes(source.read_bytes())
+        self.system = forage.System.read(self.file)
+        self.options = [str(o) for o in options]
+
+    def __enter__(self):
+        self.studio = Studio(os.environ["FORAGE"], str(self.file), *self.options).__enter__()
+        self.page = Page(self.studio)
+        self.page.do("pause")
+        self.seen = len(self.page.messages)
+        return self
+
+    def __exit__(self, *exception):
+        self.page.close()
+        return self.studio.__exit__(*exception)
+
+    def edit(self, **operation):
+        return self.page.do("edit", operations=[operation])
+
+    def forms(self):
+        """Those of the actions since the last call."""
+        self.page.do("digest")
+        new, self.seen = self.page.messages[self.seen:], len(self.page.messages)
+        return [(m["python"], m["shell"]) for m in new if m["type"] == "action"]
+
+    def follow(self):
+        """Repeats what the log says, which is what the page has now; returns the forms."""
+        forms, text = self.forms(), self.page.do("document")["text"]
+        repeat(forms, self.system, self.command, self.file, self.copy)
+        assert self.copy.read_text() == text
+        assert self.system == forage.System.parse(text, path=self.file)
+        return forms
+
+
 def test_undo_in_a_large_system_is_repeated_in_python_and_the_shell(tmp_path, command):
     """Of what is at the element of the system, around which is all of its text."""
-    file, copy = tmp_path / "edited.iqr", tmp_path / "copy.iqr"
-    file.write_bytes((SYSTEMS / "dac_foraging.iqr").read_bytes())
-    copy.write_bytes(file.read_bytes())
-    system = forage.System.read(file)
-    removed = system.connections[3].id
-    with Studio(os.environ["FORAGE"], str(file), "--world", str(WORLD)) as studio:
+    with Editing(tmp_path, command, SYSTEMS / "dac_foraging.iqr", "--world", WORLD) as e:
+        removed = e.system.connections[3].id
+        for operation in (
+            {"do": "system", "author": "Ada", "note": "é"},
+            {"do": "remove", "ids": [removed]},
+            {"do": "remove", "ids": [p.id for p in e.system.processes]},
+        ):
+            e.edit(**operation)
+            e.follow()
+            e.page.do("undo")
+            e.page.do("redo")
+            e.page.do("undo")
+            forms = e.follow()
+            assert all(python and shell for python, shell in forms), forms
+        e.edit(do="rename", id=removed, name="Last")
+        assert len(e.follow()) == 1
+
+
+def test_what_is_too_long_for_a_form_is_part_of_the_next_one(tmp_path, command):
+    with Editing(tmp_path, command, SYSTEMS / "dac_foraging.iqr", "--world", WORLD) as e:
+        connection = e.system.connections[3].id
+        e.page.do("set", assignments=["Bug/Light.threshold=0.25"])
+        e.edit(do="system", note="x" * 150_000)
+        e.edit(do="rename", id=connection, name="Other")
+        e.page.do("save")
+        e.page.do("save", file=str(tmp_path / "other.iqr"))
+        forms = e.forms()
+        assert [form for form in forms if form != ("", "")] == forms[:1], [[len(part) for part in form] for form in forms]
+        assert forms[0][1] == "--set 'Bug/Light.threshold=0.25'"
+        e.edit(do="system", note="short")
+        (python, shell), = e.forms()
+        assert "Other" in python and "Other" in shell and "0.25" in shell
+        words = shlex.split(shell)
+        command("edit", str(e.copy), *words[3:])
+        assert e.copy.read_text() == e.page.do("document")["text"]
+        exec(python, {"system": e.system})
+        assert e.system == forage.System.parse(e.copy.read_text(), path=e.file)
+
+
+def test_a_correction_with_a_parameter_is_repeated(tmp_path, command):
+    with Editing(tmp_path, command, SYSTEMS / "cookbook/oscillator.iqr") as e:
+        text = e.page.do("document")["text"]
+        type_name = re.search(r'<Neuron name="(\w+)"', text)[1]
+        parameter = next(p for p in e.page.do("parameters", item=e.system.groups[0].id)["parameters"] if p["kind"] == "real")
+        e.page.do("text_edit", text=text.replace(type_name, "neuronNone", 1))
+        assert not e.page.do("document")["running_is_current"]
+        e.follow()
+        e.page.do("set", assignments=[parameter["assignment"] + "=0.25"])  # while another system runs
+        e.page.do("undo")
+        e.page.do("undo")
+        forms = e.follow()
+        assert ["system." in python for python, _ in forms] == [False, False, True], forms
+        e.page.do("text_edit", text=text.replace(type_name, "neuronNone", 1))
+        group = e.system.groups[0].id
+        e.page.do("edit", operations=[{"do": "type", "id": group, "part": "neuron", "type": type_name}, {"do": "parameter", "id": group, "name": parameter["name"], "value": 0.5}])
+        e.follow()
+
+
+def test_a_system_with_mistakes_has_forms_after_it_is_saved(tmp_path, command):
+    source = tmp_path / "wrong.iqr"
+    good = (SYSTEMS / "cookbook/oscillator.iqr").read_text()
+    source.write_text(good.replace("</System>", ""))
+    with Studio(os.environ["FORAGE"], str(source)) as studio:
         page = Page(studio)
-        page.do("pause")
-        page.do("edit", operations=[{"do": "system", "author": "Ada", "note": "é"}])
-        page.do("undo")
-        page.do("edit", operations=[{"do": "remove", "ids": [removed]}])
-        page.do("undo")
-        page.do("edit", operations=[{"do": "remove", "ids": [p.id for p in system.processes]}])
-        page.do("undo")  # all of the text comes back, which is too long; it goes and comes again
-        page.do("redo")
-        page.do("undo")
-        page.do("edit", operations=[{"do": "rename", "id": removed, "name": "Last"}])
-        text = page.do("document")["text"]
-        forms = [(m["python"], m["shell"]) for m in page.messages if m["type"] == "action"]
+        page.do("text_edit", text=good)
+        page.do("edit", operations=[{"do": "system", "author": "Ada"}])
+        page.do("save")
+        assert [(m["python"], m["shell"]) for m in page.messages if m["type"] == "action"] == [("", "")] * 3
+        page.do("edit", operations=[{"do": "system", "author": "Bob"}])
+        action = page.last("action")
         page.close()
-    assert len(forms) == 9
-    too_long = [form for form in forms if not form[0] or not form[1]]
-    assert too_long == [("", "")] * 3, [[len(part) for part in form] for form in forms]
-    repeat(forms[:4] + forms[8:], system, command, file, copy)
-    assert copy.read_text() == text
-    assert system == forage.System.parse(text, path=file)
+    copy = tmp_path / "copy.iqr"
+    copy.write_bytes(source.read_bytes())
+    command("edit", *(word.replace(str(source), str(copy)) for word in shlex.split(action["shell"])[2:]))
+    system = forage.System.read(source)
+    exec(action["python"], {"system": system})
+    assert system == forage.System.read(copy) and system.author == "Bob"
 
 
 def test_a_parameter_gets_into_the_file_with_the_next_edit_or_when_it_is_saved(tmp_path, command):
@@ -261,7 +356,8 @@ def test_edits_of_a_world_are_repeated_in_python_and_the_shell(tmp_path, command
     third = tmp_path / "third.world"
     assert third.read_bytes() == wanted
     third.unlink()
-    command(*shlex.split(save["shell"])[1:])
+    command(*shlex.split(save["shell"].splitlines()[0])[1:])
+    assert save["shell"].splitlines()[1] == f"--world '{third}'"
     assert third.read_bytes() == wanted
     third.unlink()
     names = {"forage": forage}
@@ -375,9 +471,13 @@ def test_a_recording_is_options_of_a_run_and_probes(tmp_path, command, dac):
         page.do("step", cycles=20)
         page.do("sample", file=str(tmp_path / "page/motor.npy"), sources=["mean(Bug/Motor)"], cycles=10)
         page.do("step", cycles=20)
-        begin, end, bounded = [m for m in page.messages if m["type"] == "action"]
+        page.do("sample", file=str(tmp_path / "page/none.csv"), sources=["Bug/Light"])
+        page.do("sample_stop")
+        begin, end, bounded, its_end, none, end_of_none = [m for m in page.messages if m["type"] == "action"]
         page.close()
-    assert [a["command"] for a in (begin, end, bounded)] == ["sample", "sample_stop", "sample"]
+    assert [a["command"] for a in (begin, end, bounded, its_end)] == ["sample", "sample_stop"] * 2
+    assert its_end["cycle"] == 153 and its_end["shell"] == bounded["shell"]
+    assert none["shell"] and not end_of_none["shell"]  # not a row
     for action, name in ((end, "light.csv"), (bounded, "motor.npy")):
         options = [word.replace(str(file.parent), str(tmp_path / "run")) for word in options_of([action])]
         command("run", SYSTEMS / "dac_foraging.iqr", "--world", WORLD, "--cycles", 163, *options)

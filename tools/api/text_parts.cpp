@@ -1,5 +1,6 @@
 #include "tools/api/text_parts.h"
 
+#include <algorithm>
 #include <string_view>
 #include <vector>
 
@@ -74,8 +75,12 @@ nlohmann::json replace_operation(const std::string& before, const std::string& a
 }
 
 std::string with_parts_replaced(std::string text, const nlohmann::json& operation) {
+    const auto& parts = operation.at("parts");
+    if (!parts.is_array())
+        throw InputError("'parts' is a list",
+                         R"({"do": "replace", "parts": [{"old": "...", "new": "..."}]})");
     std::size_t number = 0;
-    for (const auto& part : operation.at("parts")) {
+    for (const auto& part : parts) {
         ++number;
         const auto old = part.at("old").get<std::string>();
         switch (times(text, old)) {

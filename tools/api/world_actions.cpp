@@ -28,6 +28,7 @@ void act(Run& run, const NewTrial& t) { begin_trial(run, t.robot.text, t.start);
 observe::ReadAction actions_on(Run& run) {
     return [&run](const model::Expression& change, std::string_view what,
                   Diagnostics& diagnostics) -> std::optional<observe::Schedule::Action> {
+        if (change.at.file) return std::nullopt;  // an experiment changes parameters only
         const expression::Context context{change.text, what, diagnostics, change.at};
         const auto read = context.parsed(expression::parse_world_change);
         if (!read) return observe::Schedule::Action();
@@ -42,8 +43,9 @@ observe::ReadAction actions_on(Run& run) {
             try {
                 std::visit([&](const auto& c) { act(view.run, c); }, to);
             } catch (const InputError& e) {  // the world does not allow it at this time
-                throw std::runtime_error(fmt::format("'{}' in cycle {}: {}", text, view.time.cycle,
-                                                     e.diagnostics().all().front().message));
+                const auto& found = e.diagnostics().all().front();
+                throw std::runtime_error(fmt::format("'{}' in cycle {}: {}; {}", text, view.time.cycle,
+                                                     found.message, found.hint));
             }
         };
     };

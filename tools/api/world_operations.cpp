@@ -40,6 +40,9 @@ json carry_out_in_world(const json& o, std::string& text, bug::ModelTexts& model
         text = bug::add_to_world(text, std::move(item), models, id);
         return id;
     }
+    if (what != "move" && what != "set" && what != "unpack" && what != "remove")
+        throw InputError(fmt::format("there is no operation '{}'", what),
+                         "add, move, set, unpack, remove or replace");
     auto id = o.at("id").get<std::string>();
     if (what == "move") {
         text = bug::moved_in_world(text, id, o.at("x"), o.at("y"), number_in(o, "yaw"), models);
@@ -50,12 +53,9 @@ json carry_out_in_world(const json& o, std::string& text, bug::ModelTexts& model
         std::vector<std::string> ids;
         text = bug::unpacked_in_world(text, id, models, ids);
         return ids;
-    } else if (what == "remove") {
+    } else {
         text = bug::removed_from_world(text, id, models);
         return nullptr;
-    } else {
-        throw InputError(fmt::format("there is no operation '{}'", what),
-                         "add, move, set, unpack, remove or replace");
     }
     return id;
 }

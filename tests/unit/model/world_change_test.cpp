@@ -20,13 +20,13 @@ TEST_CASE("A move has a name, a place and perhaps a heading") {
     CHECK(move("move a=b=1,2").name.text == "a=b");
     for (const auto* wrong :
          {"move", "move ", "move Bug", "move Bug=", "move Bug=1", "move Bug=1,", "move Bug=1,x", "move =1,2",
-          "move Bug=1,2,3,4", "move Bug=1,nan", "move Bug=1,inf", "move Bug=,2"})
+          "move Bug=1,2,3,4", "move Bug=1,nan", "move Bug=1,inf", "move Bug=,2", "move Bug=1,2,"})
         CHECK_THROWS_AS(parse_world_change(wrong), Mistake);
     try {
         parse_world_change("move Bug=1,x");
         FAIL();
     } catch (const Mistake& m) {
-        CHECK(m.at == 11);
+        CHECK(m.at == 11);  // the x
     }
 }
 
@@ -44,8 +44,8 @@ TEST_CASE("A trial has perhaps a robot and a start pose") {
 }
 
 TEST_CASE("Other texts are no changes of the world") {
-    for (const auto* other :
-         {"", " ", "Bug/Light.threshold=1", "\"move it\".threshold=1", "mover.x=1", "begin_trials"})
+    for (const auto* other : {"", " ", "Bug/Light.threshold=1", "\"move it\".threshold=1", "mover.x=1",
+                              "begin_trials", "move\tBug=1,2", "move=1,2", "begin_trial=0"})
         CHECK_FALSE(parse_world_change(other));
 }
 

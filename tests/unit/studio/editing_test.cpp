@@ -857,10 +857,10 @@ TEST_CASE("what is edited is shown for the run, for the system, or for both") {
     CHECK(e.last["action"]["python"] == "run.params[\"Bug/Light.threshold\"] = 0");
     CHECK(forms(json::array({note})).second.starts_with("system.edit([{"));
     auto other = parameter, longer = note;
-    other["value"] = 0.25, longer["value"] = std::string(9000, 'x');
+    other["value"] = 0.25, longer["value"] = std::string(101000, 'x');
     const auto [shell, python] =
         forms({other, {{"do", "set"}, {"id", "bug.light"}, {"property", "note"}, {"value", "bright"}}});
-    CHECK(shell.starts_with("forage edit '" + e.file + "' '[{"));
+    CHECK(shell.starts_with("--set 'Bug/Light.threshold=0.25'\nforage edit '" + e.file + "' '[{"));
     CHECK(python.starts_with("run.params[\"Bug/Light.threshold\"] = 0.25\nsystem.edit([{"));
     other["value"] = 0.75;
     CHECK(forms(json::array({other, longer})) ==
@@ -907,7 +907,7 @@ TEST_CASE("actions that begin the run anew say what they end, and how to do it w
     ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
     const std::string mine = (e.folder / "mine.world").string();
     told = action({{"command", "world_save"}, {"file", mine}});
-    CHECK(told["shell"] == "forage edit '" + arena + "' '[]' -o '" + mine + "'");
+    CHECK(told["shell"] == "forage edit '" + arena + "' '[]' -o '" + mine + "'\n--world '" + mine + "'");
     CHECK(told["python"] == "forage.edit_file(\"" + arena + "\", [], save_as=\"" + mine + "\")\n" + open +
                                 mine + "\", seed=8)");
     told = action({{"command", "world_save"}});

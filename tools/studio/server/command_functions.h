@@ -93,7 +93,6 @@ struct Commands {
     json sample();
     json sample_stop();
     void begin_sampling(const json& how);
-    void tell_sampling(const std::string& command, const std::string& title, const Equivalent& forms);
     /// Begins what was asked to begin with the run.
     void begin_waiting_sampler();
 

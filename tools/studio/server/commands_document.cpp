@@ -77,6 +77,7 @@ json Commands::new_system() {
     input.world = c.value("world", ""), input.world_text.clear();
     s.open_document(input);
     s.document_ = made;
+    s.scripted_.begin(made);
     s.tell_document();
     return json::object();
 }
@@ -98,8 +99,9 @@ json Commands::save() {
                          "save it under the name of the system, or under another one");
     ScriptedSystem scripted = s.scripted_;
     const auto forms = scripted.save(s.edited_file(before), document(), to, run().registry());
+    const std::string text_before = document().text();
     document().save(file, run().registry(), c.value("overwrite", false));
-    scripted.note_text(document());
+    scripted.note_saved(text_before, document());
     s.scripted_ = std::move(scripted);
     // The file now has a text that does not run.
     if (!s.current_ && s.input_.text.empty()) s.input_.text = s.begun_.text;
@@ -109,14 +111,7 @@ json Commands::save() {
     if (s.current_) s.built_ = document().system();
     note_recent(document().path());
     if (s.kept_ && document().path() != before) s.keep_anew(), s.saved_version_.reset();
-    s.tell({{"type", "action"},
-            {"generation", s.generation_},
-            {"cycle", run().cycle()},
-            {"command", "save"},
-            {"title", (to == before ? "save " : "save as ") + fs::path(to).filename().string()},
-            {"shell", forms.shell},
-            {"python", forms.python},
-            {"undoable", false}});
+    s.tell_action("save", (to == before ? "save " : "save as ") + fs::path(to).filename().string(), forms);
     s.tell(s.system_message()), s.tell_document();
     return {{"file", document().path()}};
 }

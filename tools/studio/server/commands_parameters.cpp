@@ -107,7 +107,7 @@ json Commands::back_or_forth(std::vector<Session::Undo>& from, std::vector<Sessi
             tell_world_edit(title, of_world_edit(s.edited_file(world_text().path), replaced), runs, ended);
         } else {
             s.act(command, std::nullopt, told(command, title));
-            if (entry.document) s.note_parameters();
+            if (entry.document) s.note_parameters(command.at("assignments").get<std::vector<std::string>>());
         }
     } catch (...) {  // what it touched is not there any more; the other steps stay
         back_again();

@@ -97,18 +97,7 @@ void Commands::begin_sampling(const json& how) {
                              observe::Sampling{every, 0, std::nullopt, false});
     s.sampler_ = std::move(sampler);
     s.status_due_ = true;
-    tell_sampling("sample", "record into " + file, of_sampling(s.sampler_->what));
-}
-
-void Commands::tell_sampling(const std::string& command, const std::string& title, const Equivalent& forms) {
-    s.tell({{"type", "action"},
-            {"generation", s.generation_},
-            {"cycle", run().cycle()},
-            {"command", command},
-            {"title", title},
-            {"shell", forms.shell},
-            {"python", forms.python},
-            {"undoable", false}});
+    s.tell_action("sample", "record into " + file, of_sampling(s.sampler_->what));
 }
 
 void Commands::begin_waiting_sampler() {
@@ -120,12 +109,7 @@ void Commands::begin_waiting_sampler() {
 json Commands::sample_stop() {
     if (!s.sampler_ && s.sampler_waits_.is_null()) throw InputError("the sampler does not run");
     json out = {{"file", nullptr}, {"rows", 0}};
-    if (s.sampler_) {
-        auto what = s.sampler_->what;
-        out = {{"file", what.file}, {"rows", s.sampler_->rows}};
-        if (run().cycle() > what.from) what.until = run().cycle() - 1;
-        tell_sampling("sample_stop", "stop recording", of_sampling_end(what));
-    }
+    if (s.sampler_) out = {{"file", s.sampler_->what.file}, {"rows", s.sampler_->rows}};
     s.sampler_waits_ = nullptr, s.status_due_ = true;
     s.close_sampler();
     return out;

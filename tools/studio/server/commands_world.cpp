@@ -176,7 +176,7 @@ json Commands::world_save() {
     auto forms = of_world(s.input_.system, file, s.input_.seed);
     if (file != world.path) {
         const auto copy = of_world_copy(s.edited_file(world.path), file);
-        forms = {copy.shell, copy.python + '\n' + forms.python};
+        forms = {copy.shell + '\n' + forms.shell, copy.python + '\n' + forms.python};
     }
     write_file(file, world.text);
     world.saved = world.text, world.path = file;

@@ -135,24 +135,21 @@ Equivalent of_end(const DrivenGroup& driven, std::uint64_t begun, std::uint64_t 
 
 namespace {
 
-constexpr std::size_t most_edited = 8000;  ///< characters of operations
-
 std::string text_of(const nlohmann::json& operations) {
     return operations.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 /// Empty when there is no file, and for operations that are too long.
 std::string command_of(const EditedFile& file, const nlohmann::json& operations) {
-    const auto text = text_of(operations);
-    if (file.path.empty() || text.size() > most_edited) return {};
-    std::string out = fmt::format("forage edit {} {}", quoted(file.path), quoted(text));
+    if (file.path.empty() || !is_short(operations)) return {};
+    std::string out = fmt::format("forage edit {} {}", quoted(file.path), quoted(text_of(operations)));
     for (const auto& p : file.plugins) out += " --plugin " + quoted(p);
     return out;
 }
 
 /// A call with a list of operations; empty when they are too long.
 std::string call_of(const std::string& begin, const nlohmann::json& operations) {
-    if (text_of(operations).size() > most_edited) return {};
+    if (!is_short(operations)) return {};
     std::vector<std::string> lines;
     for (const auto& o : operations) lines.push_back(in_python(o));
     return fmt::format("{}[{}])", begin, fmt::join(lines, ",\n" + std::string(begin.size() + 1, ' ')));
@@ -160,10 +157,19 @@ std::string call_of(const std::string& begin, const nlohmann::json& operations) 
 
 }  // namespace
 
+bool is_short(const nlohmann::json& operations) {
+    constexpr std::size_t most = 100'000;  // bytes; Linux takes 128 KiB of an argument
+    return text_of(operations).size() <= most;
+}
+
 Equivalent of_edit(const EditedFile& file, const nlohmann::json& in_shell, const nlohmann::json& in_python) {
-    return {command_of(file, in_shell),
-            in_python.empty() ? "# The text of the file differs, but not what a System holds of it."
-                              : call_of("system.edit(", in_python)};
+    Equivalent out;
+    if (!in_shell.empty()) out.shell = command_of(file, in_shell);
+    if (!in_python.empty())
+        out.python = call_of("system.edit(", in_python);
+    else if (!in_shell.empty())
+        out.python = "# The text of the file differs, but not what a System holds of it.";
+    return out;
 }
 
 Equivalent of_save(const EditedFile& file, const std::string& to, const nlohmann::json& in_shell,
@@ -198,8 +204,10 @@ Equivalent of_move(const std::string& name, double x, double y, double heading, 
 Equivalent of_trial(const std::string& robot, int start, std::uint64_t cycle) {
     const std::string where = start < 0 ? "" : fmt::format("start={}, ", start);
     const std::string at = start < 0 ? "" : fmt::format("={}", start);
-    return {"--schedule " + quoted(fmt::format("cycle {}: begin_trial {}{}", cycle, robot, at)),
-            fmt::format("run.begin_trial({}robot={})", where, literal(robot))};
+    const bool ambiguous = start < 0 && robot.find('=') != robot.npos;
+    return {
+        ambiguous ? "" : "--schedule " + quoted(fmt::format("cycle {}: begin_trial {}{}", cycle, robot, at)),
+        fmt::format("run.begin_trial({}robot={})", where, literal(robot))};
 }
 
 namespace {
@@ -244,7 +252,7 @@ Equivalent of_sampling(const Sampled& s) {
 }
 
 Equivalent of_sampling_end(const Sampled& s) {
-    return {recording_options(s),
+    return {s.until ? recording_options(s) : "",
             "recorded = [probe.take() for probe in probes]\nfor probe in probes: probe.remove()"};
 }
 

@@ -10,6 +10,7 @@
 
 namespace forage::studio {
 
+/// Both may be empty. A line of `shell` is options of `forage run`, or another command.
 struct Equivalent {
     std::string shell, python;
 };
@@ -34,10 +35,13 @@ struct EditedFile {
     std::string path;
     std::vector<std::string> plugins = {};
 };
-/// Operations on the system in a file, and on a System of Python; each form is empty when its operations have
-/// more than 8000 characters.
+/// Whether operations are short enough for a form.
+bool is_short(const nlohmann::json& operations);
+/// Operations on the system in a file, and on a System of Python. A form is empty when its operations are
+/// none, or not short.
 Equivalent of_edit(const EditedFile& file, const nlohmann::json& in_shell, const nlohmann::json& in_python);
-/// A system that is saved in the file `to`, with operations that are still to be carried out.
+/// A system that is saved in the file `to`, with operations that are still to be carried out. A form is empty
+/// when these are not short.
 Equivalent of_save(const EditedFile& file, const std::string& to, const nlohmann::json& in_shell,
                    const nlohmann::json& in_python);
 /// Operations on the world in a file, likewise.
@@ -59,7 +63,7 @@ struct Sampled {
     std::uint64_t every = 1, from = 0;
     std::optional<std::uint64_t> until = {};
 };
-/// Its begin, and its end.
+/// Its begin, and its end, which has no `until` when no row was recorded.
 Equivalent of_sampling(const Sampled& sampled);
 Equivalent of_sampling_end(const Sampled& sampled);
 

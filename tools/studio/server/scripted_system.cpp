@@ -6,8 +6,8 @@
 #include "core/model/changes.h"
 #include "core/model/lookup.h"
 #include "core/model/operations.h"
-#include "core/run/input_error.h"
 #include "core/xml/patch.h"
+#include "core/xml/reader.h"
 #include "core/xml/writer.h"
 #include "tools/api/operations.h"
 #include "tools/api/text_parts.h"
@@ -58,6 +58,15 @@ std::string text_after(const json& operations, const std::string& text, const st
     }
 }
 
+/// A system whose connections leave out as much as those of another one.
+model::System as_terse_as(const model::System& other, model::System system) {
+    for (auto& c : system.connections) {
+        const auto it = std::ranges::find(other.connections, c.id, &model::Connection::id);
+        if (it != other.connections.end()) c.terse = it->terse;
+    }
+    return system;
+}
+
 /// The parts in which two texts differ, as operations.
 json parts(const std::string& before, const std::string& after) {
     return before == after ? json::array() : json::array({editing::replace_operation(before, after)});
@@ -66,14 +75,17 @@ json parts(const std::string& before, const std::string& after) {
 }  // namespace
 
 void ScriptedSystem::begin(const Document& document) {
-    text_.clear();
-    if (document.readable()) text_ = document.text(), system_ = document.system();
+    Diagnostics ignored;
+    auto saved = xml::parse_system(document.path(), document.saved_text(), ignored);
+    text_ = saved ? document.saved_text() : std::string();
+    system_ = saved ? *std::move(saved) : model::System();
 }
 
 ScriptedSystem::Operations ScriptedSystem::follow(const std::string& before, const json& operations,
                                                   const Document& now, const Registry& registry) {
     // `replace` means the text of the file in the shell, and what the model writes in the studio.
-    const bool is_text = std::ranges::any_of(operations, [](const auto& o) { return o["do"] == "replace"; });
+    const bool is_text =
+        std::ranges::any_of(operations, [](const auto& o) { return o.value("do", "") == "replace"; });
     const json given = is_text ? json::array() : operations;
     json all = given;
     model::System scripted = system_;
@@ -92,30 +104,39 @@ ScriptedSystem::Operations ScriptedSystem::follow(const std::string& before, con
         out.in_shell = all;
     else
         out.in_shell = parts(text_, now.text());
-    out.in_python = same ? all : parts(xml::write_system(system_), xml::write_system(now.system()));
-    text_ = now.text();
-    system_ = same ? std::move(scripted) : now.system();
+    if (!same) scripted = as_terse_as(system_, now.system());
+    out.in_python = same ? all : parts(xml::write_system(system_), xml::write_system(scripted));
+    if (is_short(out.in_shell)) text_ = now.text();
+    if (is_short(out.in_python)) system_ = std::move(scripted);
     return out;
 }
 
 Equivalent ScriptedSystem::edit(const EditedFile& file, const std::string& before, const json& operations,
                                 const Document& now, const Registry& registry) {
-    if (!now.readable()) return {};
-    if (text_.empty()) return begin(now), Equivalent();
+    if (!now.readable() || text_.empty()) return {};
     const auto all = follow(before, operations, now, registry);
     return of_edit(file, all.in_shell, all.in_python);
+}
+
+bool ScriptedSystem::has_all_but_parameters(const Document& now, const Registry& registry) const {
+    return text_.empty() || text_ == now.text() ||
+           text_after(parameter_operations(system_, now.system(), registry), text_, now.path(), registry) ==
+               now.text();
 }
 
 Equivalent ScriptedSystem::save(const EditedFile& file, const Document& now, const std::string& to,
                                 const Registry& registry) {
     if (!now.readable() || text_.empty()) return {};
     const auto all = follow({}, json::array(), now, registry);
-    if (!now.path().empty()) model::move_files(system_, now.path(), to, registry);
+    if (is_short(all.in_python) && !now.path().empty()) model::move_files(system_, now.path(), to, registry);
     return of_save(file, to, all.in_shell, all.in_python);
 }
 
-void ScriptedSystem::note_text(const Document& saved) {
-    if (!text_.empty() && saved.readable()) text_ = saved.text();
+void ScriptedSystem::note_saved(const std::string& before, const Document& saved) {
+    if (text_.empty())
+        begin(saved);
+    else if (text_ == before)
+        text_ = saved.text();
 }
 
 }  // namespace forage::studio

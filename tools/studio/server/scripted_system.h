@@ -12,22 +12,25 @@
 
 namespace forage::studio {
 
-/// `forage edit` works on the text of a file, and `System.edit()` on what a System holds of it. Both follow
-/// the document; parameters that were set in the run get into them with the next edit, or when it is saved.
+/// `forage edit` works on the text of a file, and `System.edit()` on what a System holds of it. Both begin
+/// with the file as it is saved, and follow the document; parameters that were set in the run get into them
+/// with the next edit, or when it is saved. What has no form, as it is too long, is part of the next form.
 class ScriptedSystem {
   public:
-    /// Scripts begin with the file as the document has it.
+    /// Without a system in the file, there are no forms before the document is saved.
     void begin(const Document& document);
     /// The forms of what has happened to the document since the last forms: `operations`, with the ids that
     /// they made, were carried out on the text `before`; none for another kind of edit. Empty when the
     /// document has no system.
     Equivalent edit(const EditedFile& file, const std::string& before, const nlohmann::json& operations,
                     const Document& now, const Registry& registry);
+    /// Whether the document differs by parameters at most.
+    bool has_all_but_parameters(const Document& now, const Registry& registry) const;
     /// The forms of saving the document in the file `to`.
     Equivalent save(const EditedFile& file, const Document& now, const std::string& to,
                     const Registry& registry);
-    /// Saving has changed the text: names of files in it.
-    void note_text(const Document& saved);
+    /// Saving has changed the text `before`: names of files in it.
+    void note_saved(const std::string& before, const Document& saved);
 
   private:
     struct Operations {
@@ -36,8 +39,8 @@ class ScriptedSystem {
     Operations follow(const std::string& before, const nlohmann::json& operations, const Document& now,
                       const Registry& registry);
 
-    std::string text_;  ///< of the file; empty before it had a system
-    model::System system_;
+    std::string text_;      ///< of the file; empty when it has no system
+    model::System system_;  ///< of Python
 };
 
 }  // namespace forage::studio

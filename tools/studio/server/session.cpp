@@ -316,8 +316,23 @@ void Session::close_sampler() {
     if (!sampler_) return;
     sampler_->recorder->close();
     finish(sampler_->what.file);
+    auto what = sampler_->what;
+    what.until.reset();
+    if (sampler_->rows > 0) what.until = run_->cycle() - 1;
     sampler_.reset();
     status_due_ = true;
+    tell_action("sample_stop", "end of recording", of_sampling_end(what));
+}
+
+void Session::tell_action(const std::string& command, const std::string& title, const Equivalent& forms) {
+    tell({{"type", "action"},
+          {"generation", generation_},
+          {"cycle", run_->cycle()},
+          {"command", command},
+          {"title", title},
+          {"shell", forms.shell},
+          {"python", forms.python},
+          {"undoable", false}});
 }
 
 void Session::go_to(std::uint64_t cycle) {

@@ -152,6 +152,8 @@ class Session {
     /// Applies and notes a command, and tells the pages.
     void act(const json& command, const std::optional<json>& undo, json told);
     void tell(const json& message);
+    /// An action that changes neither the run nor what is edited.
+    void tell_action(const std::string& command, const std::string& title, const Equivalent& forms);
     json status() const;
     json trials_status() const;
     json system_message();
@@ -180,7 +182,11 @@ class Session {
     std::vector<std::string> lost_by_rebuild() const;
     /// Changes parameters in the document, too, when its items have them. Returns whether that is a step.
     bool set_in_document(const std::vector<std::string>& assignments, const std::string& title);
-    void note_parameters();  ///< the run has the parameters of the document
+    /// Resolves changes of parameters of the items of a system, and leaves out others.
+    std::vector<model::Assignment> assignments_in(const model::System& system,
+                                                  const std::vector<std::string>& texts) const;
+    /// The run has these parameters of the document.
+    void note_parameters(const std::vector<std::string>& assignments);
     /// Takes a step of the document back, or forth.
     void step_document(bool back);
     void tell_document();

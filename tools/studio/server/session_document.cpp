@@ -196,29 +196,43 @@ void Session::look_outside() {
     tell_document();
 }
 
+std::vector<model::Assignment> Session::assignments_in(const model::System& system,
+                                                       const std::vector<std::string>& texts) const {
+    std::vector<model::Assignment> out;
+    for (const auto& text : texts) {
+        Diagnostics ignored;  // other systems that run have other items
+        if (auto a = model::parse_assignment(system, run_->registry(), text, "set", ignored))
+            out.push_back(std::move(*a));
+    }
+    return out;
+}
+
 bool Session::set_in_document(const std::vector<std::string>& assignments, const std::string& title) {
-    const auto in = [&](const model::System& system) {
-        std::vector<model::Assignment> out;
-        for (const auto& text : assignments) {
-            Diagnostics ignored;  // other systems that run have other items
-            if (auto a = model::parse_assignment(system, run_->registry(), text, "set", ignored))
-                out.push_back(std::move(*a));
-        }
-        return out;
-    };
-    const auto changes = in(document_->system());
+    const auto changes = assignments_in(document_->system(), assignments);
     const bool step = document_->edit(
         [&](model::System& system) {
             for (const auto& a : changes) model::set(system, a);
         },
         title);
-    for (const auto& a : in(built_)) model::set(built_, a);
-    note_parameters();
+    note_parameters(assignments);
     return step;
 }
 
-void Session::note_parameters() {
-    if (current_) input_.text = document_->text(), built_ = document_->system();
+void Session::note_parameters(const std::vector<std::string>& assignments) {
+    if (current_) {
+        input_.text = document_->text(), built_ = document_->system();
+        return;
+    }
+    for (const auto& a : assignments_in(built_, assignments)) {
+        const auto* use = a.parameter ? model::find_use(document_->system(), a.id) : nullptr;
+        if (!use) {
+            model::set(built_, a);
+            continue;
+        }
+        const auto it = std::ranges::find(use->settings, a.parameter->name, &model::Setting::name);
+        model::set_parameter(built_, a.id, a.parameter->name,
+                             it == use->settings.end() ? std::nullopt : std::optional(it->value));
+    }
 }
 
 void Session::step_document(bool back) { back ? document_->undo() : document_->redo(); }
@@ -252,11 +266,11 @@ void Session::follow_document(const std::string& title, const std::string& text_
                 values[a.text.substr(0, a.text.find('='))] = a.text.substr(a.text.find('=') + 1);
             }
             // What a run does not know is said of the system.
-            const bool more = built_ != now;
-            if (more) built_ = now;
+            const bool more = !scripted_.has_all_but_parameters(*document_, run_->registry());
+            built_ = now;
             if (!assignments.empty()) {
                 auto same = of_assignments(assignments, run_->cycle());
-                if (more && !form().shell.empty()) same.shell = form().shell;
+                if (more && !form().shell.empty()) same.shell += '\n' + form().shell;
                 if (more && !form().python.empty()) same.python += '\n' + form().python;
                 act({{"command", "set"}, {"assignments", assignments}}, std::nullopt,
                     {{"title", title}, {"values", values}, {"shell", same.shell}, {"python", same.python}});
