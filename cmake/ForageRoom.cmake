@@ -33,12 +33,10 @@ function(forage_apart)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endfunction()
 
-# Targets that are compiled for a short build, not for speed. The build type of the sanitizers is in CMakePresets.json.
-set(forage_short_build "$<$<CONFIG:Release>:-O1>$<$<CONFIG:Sanitized>:-O0>")
-
-# forage_cold(TARGET...): targets that work before and after the cycles of a run.
+# forage_cold(TARGET...): targets that work before and after the cycles of a run. They are compiled for a short build, not for speed.
+# The build type of the sanitizers is in CMakePresets.json.
 function(forage_cold)
   foreach(target ${ARGN})
-    target_compile_options(${target} PRIVATE ${forage_short_build})
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1> $<$<CONFIG:Sanitized>:-O0>)
   endforeach()
 endfunction()
