@@ -34,14 +34,16 @@ std::unique_ptr<Schedule> make_schedule(const std::vector<model::ScheduledChange
     for (const auto& [when, what] : changes) {
         const std::string_view option = when.at.file ? "at" : "--schedule";
         auto condition = parse_condition(layout, trials, when.text, option, diagnostics, when.at);
-        auto action = read_action ? read_action(what, option, diagnostics) : std::nullopt;
         std::optional<std::variant<model::Assignment, Schedule::Action>> change;
-        if (action && *action)
-            change = std::move(*action);
-        else if (auto assignment = action ? std::nullopt
-                                          : model::parse_assignment(system, registry, what.text, option,
-                                                                    diagnostics, what.at))
+        Diagnostics unread;  // of a text that is another kind of change
+        auto assignment = model::parse_assignment(system, registry, what.text, option, unread, what.at);
+        auto action = assignment || !read_action ? std::nullopt : read_action(what, option, diagnostics);
+        if (!assignment && !action)
+            for (const auto& d : unread.all()) diagnostics.add(d);
+        if (assignment)
             change = std::move(*assignment);
+        else if (action && *action)
+            change = std::move(*action);
         if (condition && change)
             out->add(std::move(*condition), std::move(*change), when.text + ": " + what.text);
     }

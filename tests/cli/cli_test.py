@@ -229,6 +229,11 @@ class Run(Cli):
         result = json.loads((self.here / "out/run.json").read_text())["result"]
         self.assertEqual([c["cycle"] for c in result["changes"]], [2, 6, 7, None])
 
+    def test_a_name_that_begins_as_a_move_is_a_name(self):
+        (self.here / "small.iqr").write_text(SMALL_SYSTEM.replace('name="P"', 'name="move on"'))
+        done = self.forage("run", "small.iqr", "--cycles", 4, "-o", "", "--schedule", "cycle 2: move on/A.excGain=10")
+        self.assertIn("in cycle 2, at cycle 2: move on/A.excGain=10", done.stdout)
+
     def test_patterns_change_the_activity(self):
         (self.here / "small.iqr").write_text(SMALL_SYSTEM)
         (self.here / "d.csv").write_text("-1,*,out,1,2\n")

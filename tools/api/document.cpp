@@ -240,14 +240,22 @@ void Document::save(const std::string& path, const Registry& registry, bool over
                          "reload it, merge both changes, or overwrite it");
     if (!overwrite && !same && fs::exists(to))
         throw FileExists(fmt::format("'{}' exists", to), "overwrite it, or choose another name");
-    std::string text = text_;
-    if (!same && !path_.empty() && readable_) {
-        model::System moved = system_;
-        model::move_files(moved, path_, to, registry);
-        if (!xml::same_content(moved, system_)) text = xml::patch(to, text_, system_, moved, lenient_).text;
-    }
+    // The names of files in a text lead to the same files from the new place.
+    const auto moved = [&](const std::string& text) {
+        Diagnostics unread;
+        unread.lenient = lenient_;
+        const auto system = xml::parse_system(path_, text, unread);
+        if (!system) return text;
+        model::System there = *system;
+        model::move_files(there, path_, to, registry);
+        return xml::same_content(there, *system) ? text : xml::patch(to, text, *system, there, lenient_).text;
+    };
+    std::string text = same || path_.empty() ? text_ : moved(text_);
     write_file(to, text);  // a failure leaves the document as it was
-    if (text != text_) push(std::exchange(text_, std::move(text)), "save as " + to, {});
+    if (text != text_)     // undo leads to texts of the new place, too
+        for (auto* steps : {&undo_, &redo_})
+            for (Step& step : *steps) step.text = moved(step.text);
+    text_ = std::move(text);
     const bool renamed = to != path_;
     path_ = to;
     saved_ = text_;

@@ -99,9 +99,8 @@ json Commands::save() {
                          "save it under the name of the system, or under another one");
     ScriptedSystem scripted = s.scripted_;
     const auto forms = scripted.save(s.edited_file(before), document(), to, run().registry());
-    const std::string text_before = document().text();
     document().save(file, run().registry(), c.value("overwrite", false));
-    scripted.note_saved(text_before, document());
+    scripted.note_saved(document());
     s.scripted_ = std::move(scripted);
     // The file now has a text that does not run.
     if (!s.current_ && s.input_.text.empty()) s.input_.text = s.begun_.text;

@@ -57,8 +57,21 @@ json Commands::restart() {
     }
     const auto seed = s.input_.seed;
     tell_begun_anew("restart", fmt::format("begin anew with seed {}", seed),
-                    of_restart(s.input_.system, s.input_.world, seed), ended);
+                    begun_anew(of_restart, s.input_.world), ended);
     return {{"seed", seed}};
+}
+
+Equivalent Commands::begun_anew(Equivalent (*form)(const Opened&), const std::string& world) {
+    // What the file does not have yet, such as parameters that were set in the run, gets into it before.
+    const auto edit =
+        s.scripted_.edit(s.edited_file(document().path()), {}, json::array(), document(), run().registry());
+    const bool edited = document().dirty();
+    Equivalent out = form({s.input_.system, world, s.input_.seed, edited});
+    if (!s.current_ || (edited && !s.scripted_.follows())) out.python.clear();
+    const auto joined = [](const std::string& a, const std::string& b) {
+        return a.empty() || b.empty() ? a + b : a + '\n' + b;
+    };
+    return {joined(edit.shell, out.shell), joined(edit.python, out.python)};
 }
 
 void Commands::tell_begun_anew(const std::string& command, const std::string& title, const Equivalent& forms,
@@ -105,7 +118,7 @@ json Commands::world_open() {
     ++s.generation_;
     const auto name = std::filesystem::path(input.world).filename().string();
     tell_begun_anew("world_open", name.empty() ? "begin anew without a world" : "begin anew in " + name,
-                    of_world(input.system, input.world, input.seed), ended);
+                    begun_anew(of_world, input.world), ended);
     s.tell(s.world_message()), s.tell(s.system_message()), s.tell_document();
     return {{"world", input.world}};
 }

@@ -173,7 +173,7 @@ json Commands::world_save() {
     RunInput wanted = s.begun_;  // with the text that the system had: its file may have changed
     wanted.world = file, wanted.world_text = world.text;
     s.make_run(wanted);  // a world in which the system cannot run is not written
-    auto forms = of_world(s.input_.system, file, s.input_.seed);
+    auto forms = begun_anew(of_world, file);
     if (file != world.path) {
         const auto copy = of_world_copy(s.edited_file(world.path), file);
         forms = {copy.shell + '\n' + forms.shell, copy.python + '\n' + forms.python};

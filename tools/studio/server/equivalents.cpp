@@ -191,6 +191,10 @@ Equivalent of_world_edit(const EditedFile& file, const nlohmann::json& operation
             call_of(fmt::format("forage.edit_file({}, ", literal(file.path)), operations)};
 }
 
+Equivalent of_saved(const std::string& file) {
+    return {"", fmt::format("system = forage.System.read({})", literal(file))};
+}
+
 Equivalent of_world_copy(const EditedFile& file, const std::string& to) {
     return {fmt::format("forage edit {} '[]' -o {}", quoted(file.path), quoted(to)),
             fmt::format("forage.edit_file({}, [], save_as={})", literal(file.path), literal(to))};
@@ -212,19 +216,18 @@ Equivalent of_trial(const std::string& robot, int start, std::uint64_t cycle) {
 
 namespace {
 
-std::string opened_in_python(const std::string& system, const std::string& world, std::uint64_t seed) {
-    const std::string in = world.empty() ? "" : ", world=" + literal(world);
-    return fmt::format("run = forage.open({}{}, seed={})", literal(system), in, seed);
+std::string opened_in_python(const Opened& o) {
+    const std::string in = o.world.empty() ? "" : ", world=" + literal(o.world);
+    return fmt::format("run = forage.open({}{}, seed={})", o.edited ? "system" : literal(o.system), in,
+                       o.seed);
 }
 
 }  // namespace
 
-Equivalent of_restart(const std::string& system, const std::string& world, std::uint64_t seed) {
-    return {fmt::format("--seed {}", seed), opened_in_python(system, world, seed)};
-}
+Equivalent of_restart(const Opened& o) { return {fmt::format("--seed {}", o.seed), opened_in_python(o)}; }
 
-Equivalent of_world(const std::string& system, const std::string& world, std::uint64_t seed) {
-    return {world.empty() ? "" : "--world " + quoted(world), opened_in_python(system, world, seed)};
+Equivalent of_world(const Opened& o) {
+    return {o.world.empty() ? "" : "--world " + quoted(o.world), opened_in_python(o)};
 }
 
 namespace {

@@ -46,16 +46,23 @@ Equivalent of_save(const EditedFile& file, const std::string& to, const nlohmann
                    const nlohmann::json& in_python);
 /// Operations on the world in a file, likewise.
 Equivalent of_world_edit(const EditedFile& file, const nlohmann::json& operations);
+/// A system that the studio has saved, with edits that had no form.
+Equivalent of_saved(const std::string& file);
 /// A world that is saved under another name.
 Equivalent of_world_copy(const EditedFile& file, const std::string& to);
 /// A robot or an object that is moved before the cycle with this number.
 Equivalent of_move(const std::string& name, double x, double y, double heading, std::uint64_t cycle);
 /// A new trial, likewise; `start` is -1 for the next start pose.
 Equivalent of_trial(const std::string& robot, int start, std::uint64_t cycle);
-/// A run that begins anew with a seed.
-Equivalent of_restart(const std::string& system, const std::string& world, std::uint64_t seed);
-/// A run that begins anew in another world; `world` is empty for none.
-Equivalent of_world(const std::string& system, const std::string& world, std::uint64_t seed);
+/// The system and the world of a run that begins anew; `edited` when the file of the system is not what runs.
+struct Opened {
+    std::string system, world;
+    std::uint64_t seed;
+    bool edited = false;
+};
+/// It begins with another seed, or in another world; the world is empty for none.
+Equivalent of_restart(const Opened& opened);
+Equivalent of_world(const Opened& opened);
 /// A recording into a file, of every n-th cycle from the first to the last one.
 struct Sampled {
     std::vector<std::string> sources;

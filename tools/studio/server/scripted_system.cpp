@@ -79,6 +79,7 @@ void ScriptedSystem::begin(const Document& document) {
     auto saved = xml::parse_system(document.path(), document.saved_text(), ignored);
     text_ = saved ? document.saved_text() : std::string();
     system_ = saved ? *std::move(saved) : model::System();
+    follows_ = text_ == document.text();
 }
 
 ScriptedSystem::Operations ScriptedSystem::follow(const std::string& before, const json& operations,
@@ -95,7 +96,11 @@ ScriptedSystem::Operations ScriptedSystem::follow(const std::string& before, con
         const auto set = parameter_operations(scripted, now.system(), registry);
         carry_out_all(set, scripted, registry, now.path());
         all.insert(all.end(), set.begin(), set.end());
-        same = !all.empty() && xml::same_content(scripted, now.system());
+        // An edit of the text alone may be one of comments, which the content leaves out.
+        const bool has_comments = !given.empty() && text_ == before;
+        same = !all.empty() && xml::same_content(scripted, now.system()) &&
+               (has_comments ||
+                xml::write_system(scripted) == xml::write_system(as_terse_as(scripted, now.system())));
     } catch (const std::exception&) {  // what an operation needs has gone since
     }
     Operations out;
@@ -106,6 +111,7 @@ ScriptedSystem::Operations ScriptedSystem::follow(const std::string& before, con
         out.in_shell = parts(text_, now.text());
     if (!same) scripted = as_terse_as(system_, now.system());
     out.in_python = same ? all : parts(xml::write_system(system_), xml::write_system(scripted));
+    follows_ = is_short(out.in_shell) && is_short(out.in_python);
     if (is_short(out.in_shell)) text_ = now.text();
     if (is_short(out.in_python)) system_ = std::move(scripted);
     return out;
@@ -126,17 +132,21 @@ bool ScriptedSystem::has_all_but_parameters(const Document& now, const Registry&
 
 Equivalent ScriptedSystem::save(const EditedFile& file, const Document& now, const std::string& to,
                                 const Registry& registry) {
-    if (!now.readable() || text_.empty()) return {};
+    if (!now.readable()) return {};
+    if (text_.empty()) return of_saved(to);
     const auto all = follow({}, json::array(), now, registry);
-    if (is_short(all.in_python) && !now.path().empty()) model::move_files(system_, now.path(), to, registry);
-    return of_save(file, to, all.in_shell, all.in_python);
+    auto out = of_save(file, to, all.in_shell, all.in_python);
+    if (!is_short(all.in_python)) {
+        out.python = of_saved(to).python;
+        system_ = now.system();
+    }
+    if (!now.path().empty()) model::move_files(system_, now.path(), to, registry);
+    return out;
 }
 
-void ScriptedSystem::note_saved(const std::string& before, const Document& saved) {
-    if (text_.empty())
-        begin(saved);
-    else if (text_ == before)
-        text_ = saved.text();
+void ScriptedSystem::note_saved(const Document& saved) {
+    if (!saved.readable() || text_.empty()) return begin(saved);
+    text_ = saved.text(), follows_ = true;
 }
 
 }  // namespace forage::studio

@@ -14,7 +14,8 @@ namespace forage::studio {
 
 /// `forage edit` works on the text of a file, and `System.edit()` on what a System holds of it. Both begin
 /// with the file as it is saved, and follow the document; parameters that were set in the run get into them
-/// with the next edit, or when it is saved. What has no form, as it is too long, is part of the next form.
+/// with the next edit, or when it is saved. What has no form, as it is too long, is part of the next form;
+/// after the document was saved, forms begin with that file.
 class ScriptedSystem {
   public:
     /// Without a system in the file, there are no forms before the document is saved.
@@ -29,8 +30,10 @@ class ScriptedSystem {
     /// The forms of saving the document in the file `to`.
     Equivalent save(const EditedFile& file, const Document& now, const std::string& to,
                     const Registry& registry);
-    /// Saving has changed the text `before`: names of files in it.
-    void note_saved(const std::string& before, const Document& saved);
+    /// The document was saved, which may have changed names of files in it.
+    void note_saved(const Document& saved);
+    /// Whether what the forms have made is the document.
+    bool follows() const { return follows_; }
 
   private:
     struct Operations {
@@ -41,6 +44,7 @@ class ScriptedSystem {
 
     std::string text_;      ///< of the file; empty when it has no system
     model::System system_;  ///< of Python
+    bool follows_ = false;
 };
 
 }  // namespace forage::studio
