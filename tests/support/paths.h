@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <string>
 
+#include <unistd.h>
+
 namespace forage::test {
 
 inline std::filesystem::path source_dir() { return FORAGE_SOURCE_DIR; }
@@ -15,6 +17,11 @@ inline std::filesystem::path source_dir() { return FORAGE_SOURCE_DIR; }
 inline std::filesystem::path shared_dir() {
     if (const char* given = std::getenv("FORAGE_SHARED")) return given;
     return source_dir().parent_path() / "shared";
+}
+
+/// A path for temporary files of this process.
+inline std::filesystem::path temporary_path(const std::string& name) {
+    return std::filesystem::temp_directory_path() / (name + "-" + std::to_string(::getpid()));
 }
 
 /// When `path` is absent, prints that a test has nothing to read, and returns true.

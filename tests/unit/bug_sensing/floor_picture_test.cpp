@@ -7,11 +7,12 @@
 
 #include "bug_interface/world/png.h"
 #include "tests/support/catch.h"
+#include "tests/support/paths.h"
 
 using namespace forage::bug;
 
 TEST_CASE("A file that is not a picture is reported before its pixels are read") {
-    const auto folder = std::filesystem::temp_directory_path() / "forage_floor_picture";
+    const auto folder = forage::test::temporary_path("forage_floor_picture");
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     const std::string good = folder / "good.png", cut = folder / "cut.png", pipe = folder / "pipe.png";
@@ -34,7 +35,7 @@ namespace {
 
 /// The picture in a PNG file of these bytes, written as hexadecimal numbers.
 Image picture(const std::string& hex, int border) {
-    const auto path = std::filesystem::temp_directory_path() / "forage_floor_picture.png";
+    const auto path = forage::test::temporary_path("forage_floor_picture.png");
     std::string bytes;
     for (std::size_t i = 0; i < hex.size(); i += 2)
         bytes += static_cast<char>(std::stoi(hex.substr(i, 2), nullptr, 16));

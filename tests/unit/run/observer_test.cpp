@@ -5,6 +5,7 @@
 
 #include "core/run/result_files.h"
 #include "core/run/run.h"
+#include "tests/support/paths.h"
 #include "tests/unit/engine/simulations.h"
 
 using namespace forage;
@@ -50,7 +51,7 @@ TEST_CASE(
     CHECK(log == std::vector<std::string>{"before 0 0", "groups 0 1", "after 1 7", "before 1 7", "groups 1 8",
                                           "after 2 7"});
 
-    const auto folder = std::filesystem::temp_directory_path() / "forage_observer_test";
+    const auto folder = test::temporary_path("forage_observer_test");
     std::filesystem::create_directories(folder);
     ResultFiles files(folder.string());
     run.finish(files);

@@ -5,6 +5,7 @@
 
 #include "core/base/output_files.h"
 #include "tests/support/catch.h"
+#include "tests/support/paths.h"
 
 using namespace forage;
 
@@ -28,7 +29,7 @@ TEST_CASE("A system that was built runs like its file, and a saved run of it goe
     CHECK(file.path == "echo.iqr");
     Run built = open(file, {.seed = 3});
     built.until({.cycles = 20});
-    const auto place = std::filesystem::temp_directory_path() / "forage_system_file_test";
+    const auto place = test::temporary_path("forage_system_file_test");
     make_directory(place.string());
     save(file, (place / "echo.iqr").string());
     Run read = open((place / "echo.iqr").string(), {.seed = 3});

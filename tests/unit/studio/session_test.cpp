@@ -11,6 +11,7 @@
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
 #include "tests/support/catch.h"
+#include "tests/support/paths.h"
 #include "tools/studio/server/commands.h"
 #include "tools/studio/server/http_server.h"
 
@@ -295,7 +296,7 @@ TEST_CASE("requests come from here, with the token") {
 
 TEST_CASE("panels and sets of parameters are written and read back, in the form of the original") {
     Fixture f;
-    const auto folder = std::filesystem::temp_directory_path() / "forage-studio-test";
+    const auto folder = test::temporary_path("forage-studio-test");
     std::filesystem::create_directories(folder);
     const std::string panel = (folder / "a.hconf").string(), values = (folder / "a.pconf").string();
     const json found = f.result({{"command", "parameters"}, {"item", "Bug/Light"}})["parameters"];
@@ -344,7 +345,7 @@ TEST_CASE("panels and sets of parameters are written and read back, in the form 
 TEST_CASE("lists of patterns are written and read back, and played as they are asked to") {
     Fixture f;
     f.session.connect(1);
-    const auto file = std::filesystem::temp_directory_path() / "forage-studio-patterns.txt";
+    const std::filesystem::path file = test::temporary_path("forage-studio-patterns").string() + ".txt";
     std::filesystem::remove(file);
     std::vector<std::vector<double>> patterns(3, std::vector<double>(81));
     for (std::size_t i = 0; i < 3; ++i) patterns[i][i] = 0.1 * static_cast<double>(i + 1);
@@ -490,7 +491,7 @@ TEST_CASE("a restart tells its seed, and how to do it without the studio") {
 
 TEST_CASE("a recording that begins with each run is one of a sequence, unless it says otherwise") {
     Fixture f;
-    const auto folder = std::filesystem::temp_directory_path() / "forage-studio-sequence";
+    const auto folder = test::temporary_path("forage-studio-sequence");
     std::filesystem::remove_all(folder), std::filesystem::create_directories(folder);
     json command = {{"command", "sample"},
                     {"file", (folder / "t.csv").string()},
@@ -522,7 +523,7 @@ TEST_CASE("the open system moves to another world, with its edits") {
 }
 
 TEST_CASE("the time between two savings of a session is set, and holds for the next studio") {
-    const auto folder = std::filesystem::temp_directory_path() / "forage-studio-settings";
+    const auto folder = test::temporary_path("forage-studio-settings");
     std::filesystem::remove_all(folder);
     setenv("XDG_STATE_HOME", folder.c_str(), 1);
     std::uint64_t cycle = 0;
@@ -548,7 +549,7 @@ TEST_CASE("the time between two savings of a session is set, and holds for the n
 }
 
 TEST_CASE("a session that is killed while it runs goes on where it was kept, byte by byte") {
-    const auto folder = std::filesystem::temp_directory_path() / "forage-studio-states";
+    const auto folder = test::temporary_path("forage-studio-states");
     std::filesystem::remove_all(folder);
     setenv("XDG_STATE_HOME", folder.c_str(), 1);
     std::uint64_t kept = 0;
@@ -584,7 +585,7 @@ TEST_CASE("a session that is killed while it runs goes on where it was kept, byt
 }
 
 TEST_CASE("a light that was moved is where it was put after a crash, too") {
-    const auto folder = std::filesystem::temp_directory_path() / "forage-studio-lights";
+    const auto folder = test::temporary_path("forage-studio-lights");
     std::filesystem::remove_all(folder);
     setenv("XDG_STATE_HOME", folder.c_str(), 1);
     const auto light = [](Fixture& f) {
@@ -620,7 +621,7 @@ TEST_CASE("a light that was moved is where it was put after a crash, too") {
 }
 
 TEST_CASE("a comparison goes on after a crash, bit by bit") {
-    const auto folder = std::filesystem::temp_directory_path() / "forage-studio-compares";
+    const auto folder = test::temporary_path("forage-studio-compares");
     std::filesystem::remove_all(folder);
     setenv("XDG_STATE_HOME", folder.c_str(), 1);
     const auto at = [](Fixture& x, const char* source) {
