@@ -231,7 +231,8 @@ class Run(Cli):
 
     def test_a_name_that_begins_as_a_move_is_a_name(self):
         (self.here / "small.iqr").write_text(SMALL_SYSTEM.replace('name="P"', 'name="move on"'))
-        done = self.forage("run", "small.iqr", "--cycles", 4, "-o", "", "--schedule", "cycle 2: move on/A.excGain=10")
+        (self.here / "d.csv").write_text("-1,*,out,1,2\n")
+        done = self.forage("run", "small.iqr", "--cycles", 4, "--replay", "d.csv", "-o", "", "--schedule", "cycle 2: move on/A.excGain=10")
         self.assertIn("in cycle 2, at cycle 2: move on/A.excGain=10", done.stdout)
 
     def test_patterns_change_the_activity(self):
