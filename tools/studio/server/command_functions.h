@@ -39,11 +39,8 @@ struct Commands {
     json step();
     json stop();
     json restart();
-    /// Tells the pages that the user has begun the run anew, and what has ended with it.
     /// The forms of a run of the document that begins anew in a world.
     Equivalent begun_anew(Equivalent (*form)(const Opened&), const std::string& world);
-    void tell_begun_anew(const std::string& command, const std::string& title, const Equivalent& forms,
-                         const std::vector<std::string>& ended);
     json speed();
     json open();
     json world_open();

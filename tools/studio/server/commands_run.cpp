@@ -56,8 +56,8 @@ json Commands::restart() {
         throw;
     }
     const auto seed = s.input_.seed;
-    tell_begun_anew("restart", fmt::format("begin anew with seed {}", seed),
-                    begun_anew(of_restart, s.input_.world), ended);
+    s.tell_action("restart", fmt::format("begin anew with seed {}", seed),
+                  begun_anew(of_restart, s.input_.world), ended);
     return {{"seed", seed}};
 }
 
@@ -72,19 +72,6 @@ Equivalent Commands::begun_anew(Equivalent (*form)(const Opened&), const std::st
         return a.empty() || b.empty() ? a + b : a + '\n' + b;
     };
     return {joined(edit.shell, out.shell), joined(edit.python, out.python)};
-}
-
-void Commands::tell_begun_anew(const std::string& command, const std::string& title, const Equivalent& forms,
-                               const std::vector<std::string>& ended) {
-    s.tell({{"type", "action"},
-            {"generation", s.generation_},
-            {"cycle", run().cycle()},
-            {"command", command},
-            {"title", title},
-            {"shell", forms.shell},
-            {"python", forms.python},
-            {"undoable", false},
-            {"ended", ended}});
 }
 
 json Commands::speed() {
@@ -117,8 +104,8 @@ json Commands::world_open() {
         });
     ++s.generation_;
     const auto name = std::filesystem::path(input.world).filename().string();
-    tell_begun_anew("world_open", name.empty() ? "begin anew without a world" : "begin anew in " + name,
-                    begun_anew(of_world, input.world), ended);
+    s.tell_action("world_open", name.empty() ? "begin anew without a world" : "begin anew in " + name,
+                  begun_anew(of_world, input.world), ended);
     s.tell(s.world_message()), s.tell(s.system_message()), s.tell_document();
     return {{"world", input.world}};
 }

@@ -189,9 +189,9 @@ json Commands::world_save() {
         s.input_ = before;
         throw;
     }
-    tell_begun_anew("world_save",
-                    "save " + std::filesystem::path(file).filename().string() + " and begin anew in it",
-                    forms, ended);
+    s.tell_action("world_save",
+                  "save " + std::filesystem::path(file).filename().string() + " and begin anew in it", forms,
+                  ended);
     s.tell(s.world_message()), s.tell(world_document());
     return {{"file", file}};
 }

@@ -175,12 +175,9 @@ Equivalent of_edit(const EditedFile& file, const nlohmann::json& in_shell, const
 Equivalent of_save(const EditedFile& file, const std::string& to, const nlohmann::json& in_shell,
                    const nlohmann::json& in_python) {
     Equivalent out;
-    if (to != file.path) {
-        out.shell = command_of(file, in_shell);
-        if (!out.shell.empty()) out.shell += " -o " + quoted(to);
-    } else if (!in_shell.empty()) {  // else the commands before have written it
-        out.shell = command_of(file, in_shell);
-    }
+    const bool renamed = to != file.path;
+    if (renamed || !in_shell.empty()) out.shell = command_of(file, in_shell);  // else it is written already
+    if (renamed && !out.shell.empty()) out.shell += " -o " + quoted(to);
     const auto edit = in_python.empty() ? std::string() : call_of("system.edit(", in_python) + '\n';
     if (edit != "\n") out.python = edit + fmt::format("system.save({})", literal(to));
     return out;

@@ -97,9 +97,9 @@ ScriptedSystem::Operations ScriptedSystem::follow(const std::string& before, con
         carry_out_all(set, scripted, registry, now.path());
         all.insert(all.end(), set.begin(), set.end());
         // An edit of the text alone may be one of comments, which the content leaves out.
-        const bool has_comments = !given.empty() && text_ == before;
+        const bool by_content = !given.empty() && text_ == before;
         same = !all.empty() && xml::same_content(scripted, now.system()) &&
-               (has_comments ||
+               (by_content ||
                 xml::write_system(scripted) == xml::write_system(as_terse_as(scripted, now.system())));
     } catch (const std::exception&) {  // what an operation needs has gone since
     }

@@ -324,7 +324,8 @@ void Session::close_sampler() {
     tell_action("sample_stop", "end of recording", of_sampling_end(what));
 }
 
-void Session::tell_action(const std::string& command, const std::string& title, const Equivalent& forms) {
+void Session::tell_action(const std::string& command, const std::string& title, const Equivalent& forms,
+                          const std::vector<std::string>& ended) {
     tell({{"type", "action"},
           {"generation", generation_},
           {"cycle", run_->cycle()},
@@ -332,7 +333,8 @@ void Session::tell_action(const std::string& command, const std::string& title, 
           {"title", title},
           {"shell", forms.shell},
           {"python", forms.python},
-          {"undoable", false}});
+          {"undoable", false},
+          {"ended", ended}});
 }
 
 void Session::go_to(std::uint64_t cycle) {

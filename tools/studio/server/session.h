@@ -152,8 +152,10 @@ class Session {
     /// Applies and notes a command, and tells the pages.
     void act(const json& command, const std::optional<json>& undo, json told);
     void tell(const json& message);
-    /// An action that changes neither the run nor what is edited.
-    void tell_action(const std::string& command, const std::string& title, const Equivalent& forms);
+    /// An action that is not a step of undo: a recording, a file that is saved, or a run that begins anew,
+    /// with which something may have ended.
+    void tell_action(const std::string& command, const std::string& title, const Equivalent& forms,
+                     const std::vector<std::string>& ended = {});
     json status() const;
     json trials_status() const;
     json system_message();
