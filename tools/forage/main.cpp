@@ -79,10 +79,8 @@ int program(int argc, char** argv) {
     BuildPluginOptions build_options;
     NewOptions new_options;
     add_new(app, new_options);
-#ifdef FORAGE_HAS_STUDIO
     StudioCommand studio_options;
     add_studio(app, studio_options);
-#endif
     add_build_plugin(app, build_options);
     auto& check_command =
         *app.add_subcommand("check", "Check a system (and a world) and report all mistakes");
@@ -190,9 +188,7 @@ int program(int argc, char** argv) {
         if (app.got_subcommand("convert")) return convert(convert_options);
         if (app.got_subcommand("edit")) return edit(edit_options);
         if (app.got_subcommand("view")) return view(directory);
-#ifdef FORAGE_HAS_STUDIO
-        if (app.got_subcommand("studio")) return studio(studio_options);
-#endif
+        if (app.got_subcommand("studio")) return studio(argv);
         if (app.got_subcommand("man")) return fmt::print("{}", man_page(app)), fine;
         if (app.got_subcommand("completion")) return fmt::print("{}", completion(app, shell)), fine;
         if (app.got_subcommand("new")) return create(new_options);
