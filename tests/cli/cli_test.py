@@ -1,6 +1,6 @@
 """The program as users see it: its output, its files and its exit status.
 
-    cli_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+    cli_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TEST...]
 """
 
 import csv
@@ -806,4 +806,4 @@ SMALL_SYSTEM = """<?xml version="1.0" encoding="UTF-8"?>
 """
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

@@ -3,7 +3,7 @@
 
 With FORAGE_REWRITE_EXPECTATIONS set, the pictures are written anew.
 
-usage: cookbook_test.py FORAGE PROJECT
+usage: cookbook_test.py FORAGE PROJECT [TEST...]
 """
 import csv
 import math
@@ -224,4 +224,4 @@ class Beginnings(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

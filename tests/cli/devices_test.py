@@ -1,6 +1,6 @@
 """Pictures, films and gamepads in runs: moduleVideo, moduleVideoRecorder, moduleJoystick.
 
-    devices_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+    devices_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TEST...]
 """
 
 import importlib.util
@@ -283,4 +283,4 @@ class Gamepad(Devices):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=["devices_test.py"], defaultTest=["Video", "Gamepad"])
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], defaultTest=["Video", "Gamepad"])

@@ -1,7 +1,7 @@
 """The same bits everywhere: the final states of shipped systems have the digests that are kept here, whatever compiler and libraries
 Forage was built with.
 
-    digests_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+    digests_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TEST...]
 
 FORAGE_REWRITE_EXPECTATIONS=1 writes them anew.
 """
@@ -14,7 +14,7 @@ import sys
 import tempfile
 import unittest
 
-FORAGE, PROJECT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
+FORAGE, PROJECT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
 KEPT = PROJECT / "tests/data/digests.json"
 SYSTEMS = PROJECT / "systems"
 
@@ -44,4 +44,4 @@ class Digests(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

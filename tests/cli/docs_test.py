@@ -14,7 +14,7 @@ What follows a number in a cell is a remark, which stays. The results of experim
 these. Experiments run for one seed and one value of each sweep; with FORAGE_WHOLE set, wholly. With FORAGE_REWRITE_EXPECTATIONS set, they run
 wholly, and results, numbers and pictures are written anew.
 
-usage: docs_test.py FORAGE PROJECT PAGE[#SECTION]...
+usage: docs_test.py FORAGE PROJECT PAGE[#SECTION]... [TEST...]
 """
 import csv
 import os
@@ -33,7 +33,7 @@ import pictures
 
 FORAGE = pathlib.Path(sys.argv[1]).resolve()
 PROJECT = pathlib.Path(sys.argv[2]).resolve()
-PAGES = sys.argv[3:]
+PAGES = [argument for argument in sys.argv[3:] if ".md" in argument]
 SHARED = pathlib.Path(os.environ.get("FORAGE_SHARED", PROJECT.parent / "shared"))
 ORIGINAL = SHARED / "original/DAC_files"
 REWRITE = "FORAGE_REWRITE_EXPECTATIONS" in os.environ
@@ -260,4 +260,4 @@ class Docs(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *(a for a in sys.argv[3:] if a not in PAGES)], verbosity=2)

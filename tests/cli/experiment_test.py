@@ -1,6 +1,6 @@
 """Experiments: their results, their files after a kill, and messages for mistakes.
 
-    experiment_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+    experiment_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TEST...]
 """
 
 import csv

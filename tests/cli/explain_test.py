@@ -1,9 +1,10 @@
 """`forage explain` tells what the groups of a system did, and why some of them did nothing.
 
-    explain_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+    explain_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TEST...]
 """
 
 import re
+import sys
 import unittest
 
 from cli_test import EXERCISE, SYSTEM, WORLD, Cli
@@ -113,4 +114,4 @@ class Explain(Cli):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=["explain_test.py"], defaultTest="Explain")
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], defaultTest="Explain")

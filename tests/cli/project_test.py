@@ -1,6 +1,6 @@
 """The files of a public project: links, workflows, versions.
 
-    project_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+    project_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TEST...]
 """
 
 import os
@@ -71,4 +71,4 @@ class Project(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

@@ -1,11 +1,12 @@
 """Groups that nothing reads are pruned from a run, and all other numbers stay the same.
 
-    prune_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+    prune_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TEST...]
 """
 
 import json
 import re
 import signal
+import sys
 import unittest
 
 from cli_test import PROJECT, WORLD
@@ -162,4 +163,4 @@ class Pruning(Stopped):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=["prune_test.py", *__import__("sys").argv[3:]], defaultTest="Pruning")
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], defaultTest="Pruning")

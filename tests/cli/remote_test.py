@@ -1,6 +1,6 @@
 """Remote control and broadcasting: `forage run --remote PORT --broadcast HOST:PORT`, with real sockets.
 
-    remote_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+    remote_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TEST...]
 """
 
 import contextlib
@@ -8,6 +8,7 @@ import json
 import re
 import socket
 import subprocess
+import sys
 import threading
 import time
 import unittest
@@ -163,4 +164,4 @@ class Remote(Cli):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=["remote_test.py"], defaultTest="Remote")
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], defaultTest="Remote")

@@ -1,6 +1,6 @@
 """Runs that are stopped by signals, kills and faults, and continue: the files that they leave.
 
-    resume_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TestClass...]
+    resume_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TEST...]
 """
 
 import os
@@ -11,6 +11,7 @@ import shutil
 import signal
 import struct
 import subprocess
+import sys
 import time
 import unittest
 
@@ -441,4 +442,4 @@ class Kill(Stopped):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=["resume_test.py", *__import__("sys").argv[3:]])
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -2,7 +2,7 @@
 
 With FORAGE_REWRITE_EXPECTATIONS set, the tables and the drawing of the data sheet are written anew.
 
-usage: robot_test.py FORAGE PROJECT
+usage: robot_test.py FORAGE PROJECT [TEST...]
 """
 
 import os
@@ -139,4 +139,4 @@ class Robot(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

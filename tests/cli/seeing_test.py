@@ -1,6 +1,6 @@
 """Recordings, read back with NumPy and h5py, and pictures.
 
-    seeing_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+    seeing_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TEST...]
 """
 
 import filecmp
@@ -13,6 +13,7 @@ import shutil
 import signal
 import struct
 import subprocess
+import sys
 import time
 import unittest
 import urllib.parse
@@ -437,6 +438,4 @@ class Pictures(Cli):
 
 
 if __name__ == "__main__":
-    import sys
-
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

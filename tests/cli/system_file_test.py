@@ -3,7 +3,7 @@
 
 With FORAGE_REWRITE_EXPECTATIONS set, the tables and pictures are written anew.
 
-usage: system_file_test.py FORAGE PROJECT
+usage: system_file_test.py FORAGE PROJECT [TEST...]
 """
 import math
 import os
@@ -178,4 +178,4 @@ class Reference(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

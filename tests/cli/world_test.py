@@ -1,6 +1,6 @@
 """Worlds, films, several systems in one run, and the page on how to make a world.
 
-    world_test.py FORAGE_PROGRAM PROJECT_DIRECTORY
+    world_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TEST...]
 """
 
 import csv
@@ -140,4 +140,4 @@ class World(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

@@ -2,7 +2,7 @@
 """What the robot learns, according to tests/data/experiments. tests/cli/docs_test.py checks that the experiments still give
 these results, and that docs/learning.md has them.
 
-usage: learning_test.py PROJECT
+usage: learning_test.py PROJECT [TEST...]
 """
 import csv
 import pathlib
@@ -43,4 +43,4 @@ class Learning(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]], verbosity=2)

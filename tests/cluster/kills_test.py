@@ -2,10 +2,10 @@
 import sys
 import unittest
 
-from mpi_test import Mpi
-from parts_test import Parts
-from slurm_test import Slurm
+from mpi_test import Mpi  # noqa: F401
+from parts_test import Parts  # noqa: F401
+from slurm_test import Slurm  # noqa: F401
 
 if __name__ == "__main__":
-    suite = unittest.TestSuite([Parts("test_kills"), Mpi("test_ranks_are_killed"), Slurm("test_tasks_and_a_node_are_killed")])
-    sys.exit(not unittest.TextTestRunner(verbosity=2).run(suite).wasSuccessful())
+    kills = ["Parts.test_kills", "Mpi.test_ranks_are_killed", "Slurm.test_tasks_and_a_node_are_killed"]
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], defaultTest=kills, verbosity=2)

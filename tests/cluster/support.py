@@ -1,6 +1,7 @@
 """What the tests of experiments on many machines share.
 
-Each test is called with FORAGE_PROGRAM PROJECT_DIRECTORY [FORAGE_MPI_PROGRAM [PYTHON PYTHON_PATH]].
+Each test is called with FORAGE_PROGRAM PROJECT_DIRECTORY [TEST...]. FORAGE_MPI is the program forage-mpi, and FORAGE_PYTHON the folder of
+the Python package; what needs them is skipped without.
 """
 import json
 import os
@@ -14,8 +15,8 @@ import unittest
 
 FORAGE = str(pathlib.Path(sys.argv[1]).resolve())
 PROJECT = pathlib.Path(sys.argv[2]).resolve()
-MPI = str(pathlib.Path(sys.argv[3]).resolve()) if len(sys.argv) > 3 and sys.argv[3] else ""
-PYTHON = sys.argv[4:6]
+MPI = os.environ.get("FORAGE_MPI", "")
+PYTHON = [sys.executable, os.environ["FORAGE_PYTHON"]] if os.environ.get("FORAGE_PYTHON") else []
 # Open MPI starts more ranks than there are cores, also for root, and without ssh.
 MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
                    "OMPI_MCA_plm_rsh_agent": "false"}

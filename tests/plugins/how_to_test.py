@@ -1,6 +1,6 @@
 """Follows docs/how-to literally, in an empty folder, with a Forage that is installed from its packages.
 
-    how_to_test.py BUILD_DIRECTORY HOW_TO_DIRECTORY
+    how_to_test.py BUILD_DIRECTORY HOW_TO_DIRECTORY [TEST...]
 
 Files are the code blocks whose lead says `NAME`; commands are the blocks of `sh`; the block of `text` behind
 one is what its last command prints.
@@ -175,4 +175,4 @@ FORAGE_PLUGIN(Wrong);
 
 if __name__ == "__main__":
     os.environ.pop("FORAGE_PLUGIN_PATH", None)
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

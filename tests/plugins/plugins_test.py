@@ -1,6 +1,6 @@
 """Plugins: how they are found, and the messages for broken ones.
 
-    plugins_test.py FORAGE_PROGRAM DIRECTORY_OF_BUILT_PLUGINS
+    plugins_test.py FORAGE_PROGRAM DIRECTORY_OF_BUILT_PLUGINS [TEST...]
 """
 
 import json
@@ -380,4 +380,4 @@ class BuildTree(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
