@@ -20,7 +20,9 @@ import tempfile
 import time
 import unittest
 
-import pictures
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "support"))
+import pictures  # noqa: E402
+from waiting import wait_for, wait_for_cycles  # noqa: E402, F401
 
 FORAGE = str(pathlib.Path(sys.argv[1]).resolve())
 PROJECT = pathlib.Path(sys.argv[2]).resolve()
@@ -38,7 +40,7 @@ class Cli(unittest.TestCase):
         self.here = pathlib.Path(self._directory.name)
 
     def forage(self, *arguments, status=0):
-        done = subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=120)
+        done = subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=600)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done
 
@@ -175,7 +177,7 @@ class Run(Cli):
     def test_a_full_disk_keeps_complete_rows_and_the_other_results(self):
         command = f'ulimit -f 100; trap "" XFSZ; exec {shlex.quote(FORAGE)} run {shlex.quote(SYSTEM)} --world {shlex.quote(WORLD)} ' \
                   "--cycles 5000 -o out -r 'Bug/Place Cells' -r Bug/GPS"
-        done = subprocess.run(["bash", "-c", command], cwd=self.here, capture_output=True, text=True, timeout=120)
+        done = subprocess.run(["bash", "-c", command], cwd=self.here, capture_output=True, text=True, timeout=600)
         self.assertEqual(done.returncode, 1)
         self.assertIn("File too large", done.stderr)
         cells, gps = self.table("out/Bug_Place_Cells_act.csv"), self.table("out/Bug_GPS_act.csv")
@@ -309,9 +311,10 @@ class Run(Cli):
     def test_an_interrupt_keeps_the_results_so_far(self):
         command = [FORAGE, "run", SYSTEM, "--world", WORLD, "--seconds", "1000", "--realtime", "--record", "Bug/Light"]
         process = subprocess.Popen(command, cwd=self.here, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-        time.sleep(1.5)
+        table = self.here / "forage-out/Bug_Light_act.csv.part"
+        wait_for(lambda: table.exists() and table.read_bytes().count(b"\n") > 3, process)
         process.send_signal(signal.SIGINT)
-        text, said = process.communicate(timeout=20)
+        text, said = process.communicate(timeout=600)
         self.assertEqual(process.returncode, 130)
         self.assertRegex(said, r"(?m)^finishing cycle \d+; Ctrl-C again ends at once$")
         self.assertIn("stopped", text)
@@ -735,7 +738,7 @@ class Others(Cli):
                 continue  # it does not overwrite what it made
             made.add(command)
             with self.subTest(command):
-                done = subprocess.run([FORAGE, *shlex.split(command)[1:]], cwd=self.here, capture_output=True, text=True, timeout=120)
+                done = subprocess.run([FORAGE, *shlex.split(command)[1:]], cwd=self.here, capture_output=True, text=True, timeout=600)
                 self.assertEqual(done.returncode, 1 if "--trial-timeout" in command else 0, done.stderr)
         # The film on top of the README is the one that its command makes.
         pictures.check(self, self.here / "forage-out/robot_learns.gif", PROJECT / "docs/pictures/robot_learns.gif", "write it anew with ./tools/update-docs")

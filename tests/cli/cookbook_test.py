@@ -37,7 +37,7 @@ class Run:
     def __init__(self, here, command):
         self.here, self.command = here, command
         self.out = here / command[command.index("-o") + 1]
-        done = subprocess.run([FORAGE, *command], cwd=here, capture_output=True, text=True, timeout=120)
+        done = subprocess.run([FORAGE, *command], cwd=here, capture_output=True, text=True, timeout=600)
         if (done.returncode, done.stderr) != (0, ""):
             raise AssertionError(f"{shlex.join(command)}\n{done.stdout}{done.stderr}")
 
@@ -189,7 +189,7 @@ class Beginnings(unittest.TestCase):
         self.here = pathlib.Path(folder.name)
 
     def forage(self, *arguments, status=0):
-        done = subprocess.run([FORAGE, *arguments], cwd=self.here, capture_output=True, text=True, timeout=120)
+        done = subprocess.run([FORAGE, *arguments], cwd=self.here, capture_output=True, text=True, timeout=600)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done.stdout + done.stderr
 

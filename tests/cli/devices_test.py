@@ -10,10 +10,9 @@ import signal
 import struct
 import subprocess
 import sys
-import time
 import unittest
 
-from cli_test import FORAGE, PROJECT, Cli
+from cli_test import FORAGE, PROJECT, Cli, wait_for, wait_for_cycles
 
 VIDEO = PROJECT / "systems/video"
 DENOISING = VIDEO / "denoising.iqr"
@@ -110,10 +109,9 @@ class Video(Devices):
         run = ["run", *map(str, arguments), "--record", "*"]
         self.forage(*run, "-o", "whole")
         process = subprocess.Popen([FORAGE, *run, "-o", "parts", "--checkpoint-every", "20", "-q"], cwd=self.here)
-        while not (self.here / "parts").exists() or not list((self.here / "parts").glob("*checkpoint*")):
-            time.sleep(0.005)
+        wait_for(lambda: list((self.here / "parts").glob("*checkpoint*")) or process.poll() is not None)
         process.send_signal(signal.SIGTERM)
-        self.assertIn(process.wait(timeout=60), (0, 128 + signal.SIGTERM))
+        self.assertIn(process.wait(timeout=600), (0, 128 + signal.SIGTERM))
         stopped = process.returncode != 0
         if stopped:
             self.forage("resume", "parts", "-q")
@@ -152,7 +150,7 @@ class Video(Devices):
         program.chmod(0o755)
         (self.here / "film.mkv").write_text("")
         self.small(file="film.mkv")
-        done = subprocess.run([FORAGE, "run", "small.iqr", "--cycles", "9"], cwd=self.here, capture_output=True, text=True, timeout=60,
+        done = subprocess.run([FORAGE, "run", "small.iqr", "--cycles", "9"], cwd=self.here, capture_output=True, text=True, timeout=600,
                               env={**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}"})
         self.assertRegex(done.stderr, "ffmpeg cannot read '.*film.mkv' to its end")
         self.assertEqual(done.returncode, 1)
@@ -186,7 +184,7 @@ class Video(Devices):
         self.small(file="text.mkv")
         if shutil.which("ffmpeg"):
             self.assertIn("ffmpeg finds no pictures in", self.forage("run", "small.iqr", "--cycles", 1, status=1).stderr)
-        none = subprocess.run([FORAGE, "run", "small.iqr", "--cycles", "1"], cwd=self.here, capture_output=True, text=True, timeout=60,
+        none = subprocess.run([FORAGE, "run", "small.iqr", "--cycles", "1"], cwd=self.here, capture_output=True, text=True, timeout=600,
                               env={**os.environ, "PATH": "/nowhere"})
         self.assertIn("the program ffmpeg is not installed (Debian and Ubuntu: apt-get install ffmpeg)", none.stderr)
         self.assertEqual(none.returncode, 2)
@@ -268,16 +266,14 @@ class Gamepad(Devices):
         os.write(device, struct.pack("80sHHHHi", b"forage test gamepad", 3, 1, 1, 1, 0) + struct.pack("256i", *sum(ranges, [])))
         before = set(os.listdir("/dev/input"))
         fcntl.ioctl(device, UI_DEV_CREATE)
-        node = None
-        while node is None:
-            time.sleep(0.05)
-            node = next((n for n in sorted(set(os.listdir("/dev/input")) - before) if n.startswith("event")), None)
+        wait_for(lambda: any(n.startswith("event") for n in set(os.listdir("/dev/input")) - before))
+        node = next(n for n in sorted(set(os.listdir("/dev/input")) - before) if n.startswith("event"))
         self.write("moduleJoystick", {"A": (2, 4), "B": (3, 1)}, {"DeviceName": f"/dev/input/{node}"}, [("JSOutput", "A"), ("Buttons", "B")])
         process = subprocess.Popen([FORAGE, "run", "small.iqr", "--seconds", "3", "--realtime", "-q", "-o", "out", "--record", "P/A", "--record", "P/B"],
                                    cwd=self.here)
-        time.sleep(1)
+        wait_for_cycles(process)
         os.write(device, event(ABS, 0, 150) + event(KEY, A_BUTTON, 1) + REPORT)
-        self.assertEqual(process.wait(timeout=60), 0)
+        self.assertEqual(process.wait(timeout=600), 0)
         self.assertEqual(list(map(float, self.table("out/P_A_act.csv")[-1][1:3])), [0, 0.5])
         self.assertEqual(float(self.table("out/P_B_act.csv")[-1][1]), 1)
 

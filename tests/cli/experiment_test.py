@@ -14,8 +14,9 @@ import statistics
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
+
+from cli_test import wait_for
 
 FORAGE = str(pathlib.Path(sys.argv[1]).resolve())
 PROJECT = pathlib.Path(sys.argv[2]).resolve()
@@ -90,7 +91,7 @@ class Experiment(unittest.TestCase):
         (self.here / "drive.csv").write_text("-1,P,out,2\n")
 
     def forage(self, *arguments, status=0):
-        done = subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=120)
+        done = subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=600)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done
 
@@ -312,9 +313,7 @@ class Interrupted(Experiment):
         (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "40"))
         self.forage("experiment", "robot.xml", "-o", "through")
         process = subprocess.Popen([FORAGE, "experiment", "robot.xml", "-o", "out", "-q"], cwd=self.here)
-        limit = time.monotonic() + 60
-        while len(self.made_at("out")) < 4 and time.monotonic() < limit:
-            time.sleep(0.005)
+        wait_for(lambda: len(self.made_at("out")) >= 4, process)
         process.kill()
         process.wait()
         before = self.made_at("out")
@@ -333,10 +332,9 @@ class Interrupted(Experiment):
     def test_ctrl_c_prints_how_to_continue(self):
         (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "1000"))
         process = subprocess.Popen([FORAGE, "experiment", "robot.xml", "-o", "out"], cwd=self.here, stderr=subprocess.PIPE, text=True)
-        while not (self.here / "out/runs").exists():
-            time.sleep(0.01)
+        wait_for((self.here / "out/runs").exists, process)
         process.send_signal(signal.SIGINT)
-        _, said = process.communicate(timeout=30)
+        _, said = process.communicate(timeout=600)
         self.assertEqual(process.returncode, 130)
         self.assertIn("finishing the current cycle of each run; Ctrl-C again ends at once", said)
         self.assertIn("the same command continues", said)
@@ -667,8 +665,7 @@ class Mistakes(Experiment):
         (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "1000"))
         first = subprocess.Popen([FORAGE, "experiment", "robot.xml", "-o", "out", "-q"], cwd=self.here, stderr=subprocess.DEVNULL)
         try:
-            while not (self.here / "out/runs").exists():
-                time.sleep(0.01)
+            wait_for((self.here / "out/runs").exists, first)
             self.assertIn("another forage is writing", self.forage("experiment", "small.xml", "-o", "out", status=2).stderr)
         finally:
             first.kill()

@@ -3,6 +3,8 @@
     resume_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TEST...]
 """
 
+import concurrent.futures
+import itertools
 import os
 import random
 import re
@@ -15,7 +17,7 @@ import sys
 import time
 import unittest
 
-from cli_test import FORAGE, PROJECT, SMALL_SYSTEM, SYSTEM, WORLD, Cli
+from cli_test import FORAGE, PROJECT, SMALL_SYSTEM, SYSTEM, WORLD, Cli, wait_for, wait_for_cycles
 
 DAC = str(PROJECT / "systems/dac_foraging.iqr")
 KILLS = int(os.environ.get("FORAGE_KILLS", "50"))
@@ -39,26 +41,19 @@ class Stopped(Cli):
         return subprocess.Popen([FORAGE, *map(str, arguments)], cwd=self.here, stdout=subprocess.PIPE,
                                 stderr=subprocess.PIPE, text=True)
 
-    def stop(self, process, after, how=signal.SIGKILL):
-        """Stops a program after some time, unless it ends before; returns its status, None when killed."""
-        try:
-            out, err = process.communicate(timeout=after)
-        except subprocess.TimeoutExpired:
+    def end(self, process, how=None, status=0):
+        """Waits for the end of a program, after a signal if one is given."""
+        if how:
             process.send_signal(how)
-            out, err = process.communicate(timeout=300)
-        if how == signal.SIGKILL and process.returncode == -signal.SIGKILL:
-            return None
-        # Before the run begins there is nothing to finish, so the signal ends the program.
-        self.assertIn(process.returncode, (0, 128 + how, -how), out + err)
-        return process.returncode
+        out, err = process.communicate(timeout=600)
+        self.assertEqual(process.returncode, status, out + err)
 
-    def until_there_is(self, name):
-        """Waits until a run has written its checkpoint."""
-        for _ in range(600):
-            if (self.here / name).exists():
-                return
-            time.sleep(0.05)
-        self.fail(f"there is no {name}")
+    def kill(self, process):
+        self.end(process, signal.SIGKILL, -signal.SIGKILL)
+
+    def until_there_is(self, name, process):
+        """Waits until a run has written a file."""
+        wait_for((self.here / name).exists, process)
 
     def kill_after(self, process, checkpoint, count, fraction):
         """Kills a run that has written `count` more checkpoints, and then a fraction of the next one's cycles; returns
@@ -107,10 +102,8 @@ class Resume(Stopped):
         for how, status in ((signal.SIGINT, 130), (signal.SIGTERM, 143)):
             out = f"out{status}"
             process = self.start(*self.arguments, "--checkpoint-every", 500, "-o", out)
-            self.until_there_is(f"{out}/checkpoint.forage")
-            process.send_signal(how)
-            _, err = process.communicate(timeout=300)
-            self.assertEqual(process.returncode, status, err)
+            self.until_there_is(f"{out}/checkpoint.forage", process)
+            self.end(process, how, status)
             names = sorted(p.name for p in (self.here / out).iterdir())
             self.assertIn("checkpoint.forage", names)
             self.assertIn("all.npz", names)
@@ -119,16 +112,17 @@ class Resume(Stopped):
             # As after a kill while a recording was extracted from the archive.
             (self.here / out / "Adaptive_Weights_Display_act.npy.unpacked.part").write_bytes(b"not all of it")
             process = self.start("resume", out)
-            self.stop(process, 0.3, how)
-            self.assertEqual(self.stop(self.start("resume", out, "--threads", 2), 90, how), 0)
+            wait_for_cycles(process)
+            self.end(process, how, status)
+            self.forage("resume", out, "--threads", 2)
             self.assert_same(out)
 
     def test_a_damaged_checkpoint_is_refused_and_the_previous_one_is_used(self):
         self.through()
         process = self.start(*self.arguments, "--checkpoint-every", 100, "-o", "killed")
-        self.until_there_is("killed/checkpoint.previous.forage")
-        self.until_there_is("killed/checkpoint.forage")  # it took the other's place a moment later
-        self.assertIsNone(self.stop(process, 0))
+        self.until_there_is("killed/checkpoint.previous.forage", process)
+        self.until_there_is("killed/checkpoint.forage", process)  # it took the other's place a moment later
+        self.kill(process)
         for damage in ("bit", "short", "empty", "other"):
             shutil.copytree(self.here / "killed", self.here / damage)
             path = self.here / damage / "checkpoint.forage"
@@ -144,8 +138,8 @@ class Resume(Stopped):
             path.write_bytes(data)
             one = self.forage("resume", path, status=2)
             self.assertRegex(one.stderr, "^error: .*checkpoint.forage' is " + ("not a checkpoint" if damage == "other" else "damaged"))
-            process = self.start("resume", damage)
-            self.stop(process, 0.3)  # the damaged one must not have taken the other's place
+            # The damaged one must not take the other's place when the run writes one.
+            self.kill_after(self.start("resume", damage), f"{damage}/checkpoint.forage", 1, 0)
             if (self.here / damage / "checkpoint.previous.forage").exists():
                 done = self.forage("resume", damage)
                 self.assertRegex(done.stderr, "warning: .*checkpoint.forage' is |^$")
@@ -164,8 +158,8 @@ class Resume(Stopped):
         drive.write_text("cycle,process,target,v0...\n0,P,out,1,2\n")
         process = self.start("run", "small.iqr", "--replay", "drive.csv", "-r", "P/A", "--cycles", 100000, "--realtime",
                              "--checkpoint-every", 5, "-o", "out")
-        self.until_there_is("out/checkpoint.previous.forage")
-        self.assertIsNone(self.stop(process, 0))
+        self.until_there_is("out/checkpoint.previous.forage", process)
+        self.kill(process)
         for path in (system, drive):
             before = path.read_text()
             path.write_text(before + ("\n" if path == system else "5,P,out,1,1\n"))
@@ -185,23 +179,24 @@ class Resume(Stopped):
         done = self.forage("run", "small.iqr", "--replay", "drive.csv", "--checkpoint-every", "10", "-o", "", status=2)
         self.assertIn("needs a directory", done.stderr)
 
-
     def test_a_directory_that_a_run_writes_into_is_refused_to_others(self):
         process = self.start(*EVERYTHING, "--cycles", 10 ** 7, "--checkpoint-every", 100, "-o", "out")
-        self.until_there_is("out/checkpoint.previous.forage")
+        self.until_there_is("out/checkpoint.previous.forage", process)
         for again in (("resume", "out"), ("run", SYSTEM, "--world", WORLD, "--cycles", 5, "-o", "out")):
             done = self.forage(*again, status=2)
             self.assertIn("error: another forage is writing into '", done.stderr)
             self.assertIn("\n  hint: ", done.stderr)
         self.assertIsNone(process.poll())
-        self.assertIsNone(self.stop(process, 0))  # a kill lets go of it
-        self.assertEqual(self.stop(self.start("resume", "out", "-q"), 2, signal.SIGINT), 130)
+        self.kill(process)  # a kill lets go of it
+        process = self.start("resume", "out", "-q")
+        wait_for_cycles(process)
+        self.end(process, signal.SIGINT, 130)
 
     def test_a_new_run_does_not_overwrite_one_that_can_be_resumed(self):
         killed = self.start(*self.arguments, "--realtime", "--checkpoint-every", 5, "-o", "out")
-        self.until_there_is("out/checkpoint.previous.forage")
-        self.until_there_is("out/checkpoint.forage")
-        self.assertIsNone(self.stop(killed, 0))
+        self.until_there_is("out/checkpoint.previous.forage", killed)
+        self.until_there_is("out/checkpoint.forage", killed)
+        self.kill(killed)
         before = self.content("out")
         self.assertIn("cs.npy.part", before)
         new = ("run", SYSTEM, "--world", WORLD, "--cycles", 5, "-r", "Bug/Light", "-o", "out")
@@ -222,15 +217,16 @@ class Resume(Stopped):
         whole = weights.read_bytes()
         weights.unlink()
         process = self.start(*arguments, "--realtime", "--checkpoint-every", 100000, "-o", "out")
-        self.until_there_is("out/checkpoint.forage")  # as soon as the weights are written
-        self.assertIsNone(self.stop(process, 0))
+        self.until_there_is("out/checkpoint.forage", process)  # as soon as the weights are written
+        self.kill(process)
         self.assertEqual(weights.read_bytes(), whole)
         weights.write_bytes(whole + b"\n")
         done = self.forage("resume", "out", status=2)
         self.assertRegex(done.stderr, r"learned.weights', a file of a module, has changed since cycle 30\d\n  hint: ")
         weights.write_bytes(whole)
         process = self.start("resume", "out")
-        self.assertEqual(self.stop(process, 3, signal.SIGINT), 130)  # in real time: it does not end by itself
+        wait_for_cycles(process)
+        self.end(process, signal.SIGINT, 130)  # in real time: it does not end by itself
 
 
 # Other kinds of runs: robots that play in teams, push balls, carry them and communicate; sensors with their own rates
@@ -292,7 +288,7 @@ class Kinds(Stopped):
             while kills < 4 and self.kill_after(process, f"{out}/checkpoint.forage", chance.randint(1, 8), chance.random()):
                 kills += 1
                 process = self.start("resume", out, "-q")
-            self.stop(process, 300)
+            self.end(process)
             self.assertGreater(kills, 0)
             self.assert_same(out)
             if arguments[:-2] == VOICES:
@@ -387,9 +383,9 @@ class Faults(Stopped):
     def test_a_directory_that_vanishes_stops_the_run(self):
         for arguments in ((), ("-r", "Bug/Light"), ("--checkpoint-every", 1000000)):
             process = self.start("run", SYSTEM, "--world", WORLD, "--cycles", 10 ** 9, "-q", "-o", "out", *arguments)
-            time.sleep(1)
+            wait_for_cycles(process)
             shutil.rmtree(self.here / "out")
-            _, err = process.communicate(timeout=300)
+            _, err = process.communicate(timeout=600)
             self.assertEqual((process.returncode, err), (1, "error: the directory 'out' is not there any more\n"))
             self.assertFalse((self.here / "out").exists())
 
@@ -414,8 +410,17 @@ class Faults(Stopped):
 
 
 class Kill(Stopped):
+    def killed_after(self, process, seconds):
+        """Kills a run after some time; whether it did not end before."""
+        try:
+            process.communicate(timeout=seconds)
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.communicate()
+        self.assertIn(process.returncode, (0, -signal.SIGKILL))
+        return process.returncode != 0
+
     def test_a_run_that_is_killed_at_any_moment_and_resumed_writes_the_same_files(self):
-        chance = random.Random(1)
         # With a digest, which computes all groups, and without, which prunes some.
         kinds = [(*EVERYTHING, "--cycles", 800)]
         kinds.append(tuple(word for word in kinds[0] if word != "--hash"))
@@ -423,22 +428,26 @@ class Kill(Stopped):
         self.forage(*kinds[1], "-o", "through1")
         self.forage(*kinds[0], "-o", "through0")
         whole = (time.monotonic() - begun) / 2
-        kills = runs = 0
-        while kills < KILLS:
-            out = f"out{runs}"
-            arguments = kinds[runs % 2]
-            every = chance.choice((1, 7, 50, 200))
-            process = self.start(*arguments, "--checkpoint-every", every, "-o", out)
-            most = kills + 10
-            while self.stop(process, chance.uniform(0, whole) if kills < most else 120) is None:
+
+        def kill(number):
+            """Kills a run up to ten times, and compares what it writes in the end; how often it was killed."""
+            chance = random.Random(number)
+            out, kills = f"out{number}", 0
+            command = (*kinds[number % 2], "--checkpoint-every", chance.choice((1, 7, 50, 200)), "-o", out)
+            process = self.start(*command)
+            while self.killed_after(process, chance.uniform(0, whole) if kills < 10 else 600):
                 kills += 1
                 there = (self.here / out).exists() and any((self.here / out).glob("checkpoint*.forage"))
-                again = ("resume", out, "-q") if there else (*arguments, "--checkpoint-every", every, "-o", out)
-                process = self.start(*again)
-            self.assert_same(out, f"through{runs % 2}")
+                process = self.start(*(("resume", out, "-q") if there else command))
+            self.assert_same(out, f"through{number % 2}")
             shutil.rmtree(self.here / out)
-            runs += 1
-        print(f"killed {kills} times in {runs} runs: nothing lost")
+            return kills
+
+        kills, runs = 0, itertools.count()
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            while kills < KILLS:
+                kills += sum(pool.map(kill, itertools.islice(runs, (KILLS - kills + 9) // 10)))
+        print(f"killed {kills} times in {next(runs)} runs: nothing lost")
 
 
 if __name__ == "__main__":

@@ -33,7 +33,7 @@ class Robot(unittest.TestCase):
         self.here = pathlib.Path(directory.name)
 
     def forage(self, *arguments, status=0):
-        done = subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=300)
+        done = subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=600)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done
 

@@ -19,7 +19,7 @@ import unittest
 import urllib.parse
 import zlib
 
-from cli_test import FORAGE, SMALL_SYSTEM, SYSTEM, WORLD, Cli
+from cli_test import FORAGE, SMALL_SYSTEM, SYSTEM, WORLD, Cli, wait_for
 
 try:
     import h5py
@@ -126,7 +126,8 @@ class Formats(Cli):
         for form in ("npy", "npz", "h5", "dat"):
             for out in ("a", "b"):
                 self.run_robot(*self.ARGUMENTS, "--format", form, out=out)
-                time.sleep(1.1 if out == "a" and form == "h5" else 0)
+                second = int(time.time())
+                wait_for(lambda: form != "h5" or int(time.time()) > second)  # times that are kept are in whole seconds
             names = [p.name for p in (self.here / "a").iterdir()]
             self.assertEqual(filecmp.cmpfiles(self.here / "a", self.here / "b", names, shallow=False)[0], names)
 
@@ -148,9 +149,22 @@ class Formats(Cli):
     def kill(self, form):
         command = [FORAGE, "run", SYSTEM, "--world", WORLD, "--seconds", "1000", "--realtime", "-r", "Bug/Light", "--format", form, "-o", f"killed_{form}"]
         process = subprocess.Popen(command, cwd=self.here, stdout=subprocess.PIPE)
-        time.sleep(2.8)
+        wait_for(lambda: any(self.rows_on_disk(p, form) > 10 for p in self.here.glob(f"killed_{form}/*.part")), process)
         process.send_signal(signal.SIGKILL)
-        process.communicate(timeout=20)
+        process.communicate(timeout=600)
+
+    def rows_on_disk(self, file, form):
+        """The rows of a recording of Bug/Light that is being written. They reach the disk within a second."""
+        if form == "csv":
+            return file.read_bytes().count(b"\n") - 1
+        if form != "h5":
+            return file.stat().st_size // (8 + 32 * 8)
+        copy = shutil.copy(file, self.here / "copy.h5")  # who reads the file itself could lock it first
+        try:
+            with h5py.File(copy, swmr=True) as recording:
+                return len(recording["cycle"])
+        except (OSError, KeyError):  # not even its head is there
+            return 0
 
     def test_rows_on_disk_remain_after_a_kill(self):
         self.run_robot("--cycles", 60, "-r", "Bug/Light", out="csv")
@@ -175,12 +189,9 @@ class Formats(Cli):
         for form in ("npz", "h5"):
             command = [FORAGE, "run", SYSTEM, "--world", WORLD, "--seconds", "1000", "--realtime", "-r", "Bug/Light", "--format", form, "-o", "out"]
             process = subprocess.Popen(command, cwd=self.here, stdout=subprocess.PIPE, text=True)
-            while not list(self.here.glob("out/*.part")):  # it runs
-                self.assertIsNone(process.poll())
-                time.sleep(0.05)
-            time.sleep(1)
+            wait_for(lambda: any(self.rows_on_disk(p, form) > 10 for p in self.here.glob("out/*.part")), process)
             process.send_signal(signal.SIGINT)
-            process.communicate(timeout=20)
+            process.communicate(timeout=600)
             cycles = json.loads((self.here / "out/run.json").read_text())["result"]["cycles"]
             if form == "npz":
                 self.assertEqual(len(numpy.load(self.here / "out/recording.npz")["Bug/Light:act"]), cycles)
@@ -191,7 +202,7 @@ class Formats(Cli):
     def test_a_full_disk_is_reported(self):
         for form, name in (("npy", "Bug_Place_Cells_act.npy"), ("h5", "recording.h5")):
             command = f"ulimit -f 300; trap '' XFSZ; exec {FORAGE} run {SYSTEM} --world {WORLD} --cycles 5000 -o full --format {form} -r 'Bug/Place Cells'"
-            done = subprocess.run(["bash", "-c", command], cwd=self.here, capture_output=True, text=True, timeout=120)
+            done = subprocess.run(["bash", "-c", command], cwd=self.here, capture_output=True, text=True, timeout=600)
             self.assertEqual(done.returncode, 1, done.stderr)
             self.assertIn("error: cannot write", done.stderr)
             self.assertIn("trials.csv", [p.name for p in (self.here / "full").iterdir()])
@@ -380,7 +391,7 @@ class Pictures(Cli):
         (self.here / "large.iqr").write_text(system.replace('hcount="2" vcount="1"', 'hcount="100" vcount="50"'))
         most = 600 << 20
         done = subprocess.run([FORAGE, "run", "large.iqr", "--cycles", "4000", "-p", "time:P/A", "--as", "svg", "-o", "out"], cwd=self.here, capture_output=True,
-                              text=True, timeout=300, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (most, most)))
+                              text=True, timeout=600, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (most, most)))
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertLess((self.here / "out/time_P_A.svg").stat().st_size, 10 << 20)
 

@@ -65,7 +65,7 @@ class Reference(unittest.TestCase):
         self.here = pathlib.Path(folder.name)
 
     def forage(self, *arguments):
-        done = subprocess.run([FORAGE, *arguments], cwd=self.here, capture_output=True, text=True, timeout=60)
+        done = subprocess.run([FORAGE, *arguments], cwd=self.here, capture_output=True, text=True, timeout=600)
         self.assertEqual((done.returncode, done.stderr), (0, ""), arguments)
         return done.stdout
 
@@ -115,7 +115,7 @@ class Reference(unittest.TestCase):
 
     def test_groups_that_are_too_large_for_a_wiring_plot_are_refused(self):
         (self.here / "x.iqr").write_text(system("100x100", "100x100", '<Connection id="c" name="C" source="a" target="b"><Synapse name="synapseFixedWeight"/></Connection>'))
-        done = subprocess.run([FORAGE, "plot", "x.iqr", "wiring:C"], cwd=self.here, capture_output=True, text=True, timeout=60)
+        done = subprocess.run([FORAGE, "plot", "x.iqr", "wiring:C"], cwd=self.here, capture_output=True, text=True, timeout=600)
         self.assertEqual(done.returncode, 2)
         self.assertIn("too large for a wiring plot; draw 'connection:C'", done.stderr)
         self.assertEqual([p.name for p in self.here.iterdir()], ["x.iqr"])
@@ -136,7 +136,7 @@ class Reference(unittest.TestCase):
             (self.here / "x.iqr").write_text(f'<System id="s" name="S"><Process id="p" name="P">{groups}{cells}</Process>{connections}</System>')
             sources = [f"P/X:{state}" for state in states] + [f"P/{g}:act" for g, _, _ in used.values()]
             run = subprocess.run([FORAGE, "run", "x.iqr", "--cycles", "40", "-o", name, *(w for s in sources for w in ("--record", s))],
-                                 cwd=self.here, capture_output=True, text=True, timeout=60)
+                                 cwd=self.here, capture_output=True, text=True, timeout=600)
             self.assertEqual(run.returncode, 0, run.stderr)  # a warning says that spkAmpl divides the reset
 
             def recorded(source):

@@ -42,7 +42,7 @@ class World(unittest.TestCase):
         self.here = pathlib.Path(directory.name)
 
     def forage(self, *arguments, status=0):
-        done = subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=300)
+        done = subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=600)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done
 
@@ -111,7 +111,7 @@ class World(unittest.TestCase):
         self.assertGreater(len(blocks), 3)
         for block in blocks:
             with self.subTest(block):
-                done = subprocess.run(["sh", "-e"], input=block, cwd=self.here, capture_output=True, text=True, timeout=120)
+                done = subprocess.run(["sh", "-e"], input=block, cwd=self.here, capture_output=True, text=True, timeout=600)
                 self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         out = self.here / "forage-out/my"
         for name in ("my.png", "my.gif", "run/trajectory.png"):

@@ -108,7 +108,7 @@ class Cluster:
         for process in reversed(list(self.processes.values())):
             process.terminate()
             try:
-                process.wait(5)
+                process.wait(30)
             except subprocess.TimeoutExpired:
                 process.kill()
                 process.wait()
@@ -132,7 +132,7 @@ def said(*command):
     return subprocess.run(command, capture_output=True, text=True).stdout.strip()
 
 
-def wait_for(condition, seconds=90):
+def wait_for(condition, seconds=900):
     end = time.monotonic() + seconds
     while not condition():
         if time.monotonic() > end:

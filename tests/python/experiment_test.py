@@ -6,7 +6,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 
 import numpy
 import pandas
@@ -47,9 +46,9 @@ def test_an_experiment_is_that_of_the_command_line(table, tmp_path):
     assert done and all(0 <= fraction <= 1 and "/15 runs" in text for fraction, text in done)
     assert made.dtype["success"] == "f8" and made.dtype["seed"] == "i8" and made.dtype["Reactive Layer/US.threshold"] == "f8"
     assert made[made["seed"] == 2].directory == made.directory
-    begun = time.perf_counter()
+    times = {p: p.stat().st_mtime_ns for p in tmp_path.glob("out/runs/*/result.json")}
     equal(forage.experiment(EXPERIMENT, directory=tmp_path / "out"), table)
-    assert time.perf_counter() - begun < 5  # nothing is computed again
+    assert len(times) == 15 and all(p.stat().st_mtime_ns == then for p, then in times.items())  # nothing is computed again
 
 
 @pytest.mark.parametrize("jobs", [1, 4])
@@ -152,13 +151,12 @@ def test_a_trial_that_takes_too_long_stops_its_run():
 
 @pytest.mark.parametrize("measure", ["{'success': {'success': 'all'}}", "len"])
 def test_ctrl_c_ends_all_runs(measure):
-    program = (f"import forage\nprint('ready', flush=True)\n"
-               f"forage.sweep({str(REACTIVE)!r}, {str(WORLD)!r}, seeds=100, seconds=1e6, measure={measure})")
+    program = (f"import forage\nforage.sweep({str(REACTIVE)!r}, {str(WORLD)!r}, seeds=100, seconds=1e6, measure={measure}, "
+               "progress=lambda fraction, text: print(text, flush=True))")
     process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=PROJECT)
     process.stdout.readline()
-    time.sleep(1)
     process.send_signal(signal.SIGINT)
-    _, errors = process.communicate(timeout=20)
+    _, errors = process.communicate(timeout=600)
     assert errors.rstrip().endswith("KeyboardInterrupt"), errors
 
 

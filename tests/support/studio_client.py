@@ -13,7 +13,7 @@ import time
 
 def http(port, target, headers=(), method='GET', host=None):
     """The status, the headers and the body of one request; raw, so that every header may be wrong."""
-    with socket.create_connection(('127.0.0.1', port), timeout=20) as s:
+    with socket.create_connection(('127.0.0.1', port), timeout=300) as s:
         lines = [f'{method} {target} HTTP/1.1', f'Host: {host or f"127.0.0.1:{port}"}', 'Connection: close', *headers]
         s.sendall(('\r\n'.join(lines) + '\r\n\r\n').encode())
         answer = b''
@@ -51,7 +51,7 @@ class Studio:
 
     def __exit__(self, *exception):
         self.child.terminate()
-        self.child.wait(20)
+        self.child.wait(300)
         self.child.stdout.close()
         if self.folder:
             self.folder.cleanup()
@@ -63,7 +63,7 @@ class Page:
     """A page: sends commands, and keeps messages and frames apart."""
 
     def __init__(self, studio):
-        self.socket = socket.create_connection(('127.0.0.1', studio.port), timeout=10)
+        self.socket = socket.create_connection(('127.0.0.1', studio.port), timeout=300)
         key = base64.b64encode(os.urandom(16)).decode()
         self.socket.sendall((f'GET /ws HTTP/1.1\r\nHost: 127.0.0.1:{studio.port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n'
                              f'Cookie: forage_{studio.port}={studio.token}\r\nSec-WebSocket-Key: {key}\r\n'
@@ -93,7 +93,7 @@ class Page:
         out, self.buffer = self.buffer[:count], self.buffer[count:]
         return out
 
-    def receive(self, timeout=10):
+    def receive(self, timeout=300):
         """Takes one message or frame; False after `timeout` seconds without one."""
         if not self.buffer:
             self.socket.settimeout(timeout)
@@ -102,7 +102,7 @@ class Page:
             except (TimeoutError, socket.timeout):
                 return False
             finally:
-                self.socket.settimeout(10)
+                self.socket.settimeout(300)
             if not self.buffer:
                 raise ConnectionError('the studio has closed the connection')
         first, length = self._take(2)
@@ -128,7 +128,7 @@ class Page:
         self.number += 1
         self.send(json.dumps({'id': self.number, 'command': command, **members}))
         while self.number not in self.replies:
-            assert self.receive(60), f'no reply to {command}'  # a busy machine needs seconds for many cycles
+            assert self.receive(), f'no reply to {command}'  # a busy machine needs seconds for many cycles
         return self.replies.pop(self.number)
 
     def do(self, command, **members):
