@@ -1,4 +1,7 @@
 // A type whose update never returns.
+#include <chrono>
+#include <thread>
+
 #include <forage/plugin.h>
 
 using namespace forage;
@@ -10,8 +13,8 @@ struct Endless {
     static void describe(NeuronSpec<Endless>& s) {
         s.name("neuronEndless", "Endless").output("act", &Cell::act, "Activity");
     }
-    void update(Cell& cell, const Input&) const {
-        for (volatile bool on = true; on;) cell.act += 1;
+    void update(Cell&, const Input&) const {
+        for (;;) std::this_thread::sleep_for(std::chrono::hours(1));  // what runs beside it keeps the processor
     }
 };
 FORAGE_PLUGIN(Endless);

@@ -22,7 +22,7 @@ BLOCK = re.compile(r"(?:^(?P<lead>(?!```)[^\n]*)\n\n)?^```(?P<language>\w+)\n(?P
 
 def run(command, here, environment=None, status=0):
     done = subprocess.run(command, shell=isinstance(command, str), cwd=here, env=environment, capture_output=True,
-                          text=True, timeout=300)
+                          text=True, timeout=600)
     if done.returncode != status:
         raise AssertionError(f"{command}: {done.returncode}\n{done.stdout}{done.stderr}")
     return done.stdout

@@ -3,6 +3,7 @@
     plugins_test.py FORAGE_PROGRAM DIRECTORY_OF_BUILT_PLUGINS [TEST...]
 """
 
+import concurrent.futures
 import json
 import os
 import pathlib
@@ -12,8 +13,10 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
+
+sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "support"))
+from waiting import wait_for  # noqa: E402
 
 FORAGE = str(pathlib.Path(sys.argv[1]).resolve())
 BROKEN = pathlib.Path(sys.argv[2]).resolve() / "broken"
@@ -82,7 +85,7 @@ class Plugins(unittest.TestCase):
         if path is not None:
             environment["FORAGE_PLUGIN_PATH"] = str(path)
         done = subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, env=environment, capture_output=True,
-                              text=True, timeout=120)
+                              text=True, timeout=600)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done
 
@@ -92,19 +95,29 @@ class Plugins(unittest.TestCase):
 
 
 class Broken(Plugins):
+    @classmethod
+    def setUpClass(cls):
+        cls.endless = subprocess.Popen([FORAGE, "types", "--plugin", BROKEN.parent / "endless.so"], stderr=subprocess.PIPE, text=True)
+        cls.addClassCleanup(cls.endless.kill)
+
     def test_each_broken_plugin_has_its_message(self):
         self.assertEqual({p.stem for p in BROKEN.glob("*.so")}, set(CORPUS) | LOADED)
         system = self.system("neuronNumeric")
+        commands = (["run", system, "-c", 5], ["check", system], ["types"], ["schema"], ["convert", system, "out.iqr"])
+
+        def said(name):
+            return [self.forage(*command, "--plugin", BROKEN / f"{name}.so", status=2).stderr for command in commands]
+
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            said = {name: pool.submit(said, name) for name in CORPUS}
         for name, (message, hint) in CORPUS.items():
             with self.subTest(name):
-                for command in (["run", system, "-c", 5], ["check", system], ["types"], ["schema"],
-                                ["convert", system, "out.iqr"]):
-                    done = self.forage(*command, "--plugin", BROKEN / f"{name}.so", status=2)
-                    self.assertRegex(done.stderr, r"error: plugin '.*" + name + r"\.so' .*" + message)
-                    self.assertEqual(done.stderr.count("error:"), 1)
+                for errors in said[name].result():
+                    self.assertRegex(errors, r"error: plugin '.*" + name + r"\.so' .*" + message)
+                    self.assertEqual(errors.count("error:"), 1)
                     if hint:
-                        self.assertRegex(done.stderr, r"\n  hint: .*" + re.escape(hint))
-                self.assertEqual(sorted(p.name for p in self.here.iterdir()), [system])
+                        self.assertRegex(errors, r"\n  hint: .*" + re.escape(hint))
+        self.assertEqual(sorted(p.name for p in self.here.iterdir()), [system])
 
     def test_files_that_are_not_shared_objects(self):
         (self.here / "text.so").write_text("hello")
@@ -141,10 +154,6 @@ class Broken(Plugins):
         self.assertTrue((self.here / "out/run.json").exists())
         self.assertFalse(list((self.here / "out").glob("*.part")))
 
-    def test_an_update_that_does_not_return_is_stopped(self):
-        done = self.forage("types", "--plugin", BROKEN.parent / "endless.so", status=2)
-        self.assertRegex(done.stderr, r"'neuronEndless' that does not work: its update\(\) does not return: it was stopped after 10 s")
-
     def test_a_crash_names_the_plugin(self):
         module = '<Module name="moduleFalls"><XRefHolder name="InputFromGroup"><XRef name="in" target="a"/></XRefHolder></Module>'
         system = self.system("neuronNumeric", module)
@@ -155,6 +164,12 @@ class Broken(Plugins):
         system = self.system("neuronNumeric", '<Module name="moduleLoud"/>')
         done = self.forage("run", system, "-c", 5, "--plugin", BROKEN / "module_output.so", "-o", "", status=1)
         self.assertIn("moduleLoud of process 'P' failed in cycle 0: it uses output 1, but declares 1", done.stderr)
+
+    def test_what_does_not_return_is_stopped(self):
+        """The last test: the program has been waiting beside the others."""
+        _, errors = self.endless.communicate(timeout=600)
+        self.assertEqual(self.endless.returncode, 2)
+        self.assertRegex(errors, r"'neuronEndless' that does not work: its update\(\) does not return: it was stopped after 10 s")
 
 
 # A system in which every type of the twins has a part, with random spikes, learning and delayed feedback.
@@ -211,9 +226,7 @@ class Twins(Plugins):
         self.forage(*command, "-o", "whole")
         stopped = subprocess.Popen([FORAGE, *map(str, command), "--realtime", "--checkpoint-every", "5", "-o", "out"],
                                    cwd=self.here, stdout=subprocess.DEVNULL)
-        while not (self.here / "out/checkpoint.forage").exists():
-            self.assertIsNone(stopped.poll())
-            time.sleep(0.02)
+        wait_for((self.here / "out/checkpoint.forage").exists, stopped)
         stopped.kill()
         stopped.wait()
         self.forage("resume", "out")
@@ -248,14 +261,11 @@ class Files(Plugins):
         return (self.here / folder / name).read_text()
 
     def stop(self, end, folder):
-        """Stops a run with a signal, some cycles after a checkpoint."""
+        """Stops a run with a signal, after a checkpoint."""
         command = [FORAGE, "run", "systems/diary.iqr", "--plugin", self.DIARY, "-c", str(self.CYCLES), "--realtime",
                    "--checkpoint-every", "7", "-o", folder]
         run = subprocess.Popen(command, cwd=self.here, stdout=subprocess.DEVNULL)
-        while not (self.here / folder / "checkpoint.forage").exists():
-            self.assertIsNone(run.poll())
-            time.sleep(0.02)
-        time.sleep(0.1)
+        wait_for((self.here / folder / "checkpoint.forage").exists, run)
         run.send_signal(end)
         run.wait()
 
@@ -374,7 +384,7 @@ class BuildTree(unittest.TestCase):
                 here = pathlib.Path(folder) / "mine"
                 for words in (["new", kind, "mine"], ["build-plugin", "mine/mine.cpp"],
                               ["run", "mine/example.iqr", "--cycles", "6", "--record", "Example/Cells", "-o", "mine/out"]):
-                    done = subprocess.run([FORAGE, *words], cwd=folder, capture_output=True, text=True, timeout=300)
+                    done = subprocess.run([FORAGE, *words], cwd=folder, capture_output=True, text=True, timeout=600)
                     self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 self.assertEqual((here / "out/Example_Cells_act.csv").read_text(), (here / "expected.csv").read_text())
 
