@@ -2,7 +2,7 @@
 
     pip install --no-build-isolation .
 
-The packages that Forage is built with must be there (./tools/setup). CMAKE_ARGS has further options for CMake.
+The packages that Forage is built with must be there (./tools/setup --tests). CMAKE_ARGS has further options for CMake.
 """
 import os
 import pathlib
