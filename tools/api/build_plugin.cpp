@@ -1,11 +1,13 @@
 #include "tools/api/build_plugin.h"
 
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
-#include <regex>
+#include <optional>
 #include <sstream>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -59,20 +61,44 @@ std::string content(std::FILE* file) {
     return out;
 }
 
-/// The errors in the messages of gcc and clang: "file:line:column: error: message". Those of other programs,
-/// such as the linker, become one error with all of the text.
+struct CompilerError {
+    std::string file;
+    int line = 0, column = 0;
+    std::string message;
+};
+
+/// What a line "file:line:column: error: message", of gcc or clang, says. Nothing for other lines.
+std::optional<CompilerError> error_in(const std::string& line) {
+    std::array<std::size_t, 3> colons;
+    colons[0] = line.find(':');
+    if (colons[0] == 0 || colons[0] == line.npos) return std::nullopt;
+    for (std::size_t k = 1; k < colons.size(); ++k) {
+        const auto number = colons[k - 1] + 1;
+        colons[k] = line.find_first_not_of("0123456789", number);
+        if (colons[k] == number || colons[k] == line.npos || line[colons[k]] != ':') return std::nullopt;
+    }
+    const std::string_view rest = std::string_view(line).substr(colons[2] + 1);
+    for (const std::string_view kind : {" error: ", " fatal error: "})
+        if (rest.starts_with(kind) && rest.find('\r') == rest.npos)
+            return CompilerError{line.substr(0, colons[0]), std::stoi(line.substr(colons[0] + 1)),
+                                 std::stoi(line.substr(colons[1] + 1)),
+                                 std::string(rest.substr(kind.size()))};
+    return std::nullopt;
+}
+
+/// The errors in the messages of gcc and clang. Those of other programs, such as the linker, become one error
+/// with all of the text.
 void report_compiler(const std::string& said, const std::string& source, Diagnostics& diagnostics) {
-    static const std::regex error(R"(^([^:\n]+):(\d+):(\d+): (?:fatal )?error: (.*)$)");
     std::ostringstream text;
     if (const File in(std::fopen(source.c_str(), "r"), &std::fclose); in) text << content(in.get());
     const auto own = std::make_shared<const SourceFile>(SourceFile{source, text.str()});
     std::istringstream lines(said);
     for (std::string line; std::getline(lines, line);) {
-        std::smatch found;
-        if (!std::regex_match(line, found, error)) continue;
+        const auto found = error_in(line);
+        if (!found) continue;
         const auto file =
-            found[1] == source ? own : std::make_shared<const SourceFile>(SourceFile{found[1], {}});
-        diagnostics.error({file, std::stoi(found[2]), std::stoi(found[3])}, found[4]);
+            found->file == source ? own : std::make_shared<const SourceFile>(SourceFile{found->file, {}});
+        diagnostics.error({file, found->line, found->column}, found->message);
     }
     if (!diagnostics.failed()) diagnostics.error({own, 0, 0}, "it does not compile: " + said.substr(0, 4000));
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <map>
-#include <regex>
 #include <stdexcept>
 
 #include <cairo-pdf.h>
@@ -45,16 +44,22 @@ void draw(const Picture& picture, cairo_surface_t* surface, double scale) {
 /// occurrence, so that a picture's bytes do not depend on earlier pictures. Glyphs, which have two numbers,
 /// are counted anew in each file.
 std::string renumbered(const std::string& svg) {
-    static const std::regex reference("(id=\"|#)([a-z-]+)([0-9]+)(?=[\")])");
     std::map<std::string, std::size_t> numbers;
     std::string out;
-    auto copied = svg.begin();
-    for (std::sregex_iterator it(svg.begin(), svg.end(), reference), end; it != end; ++it) {
-        out.append(copied, (*it)[3].first);
-        out += std::to_string(numbers.emplace((*it)[2].str() + (*it)[3].str(), numbers.size()).first->second);
-        copied = (*it)[3].second;
+    std::size_t copied = 0;
+    for (auto at = svg.find_first_of("i#"); at != svg.npos; at = svg.find_first_of("i#", at + 1)) {
+        // After id=" or #, an id is letters and digits, with a quotation mark or a parenthesis behind it.
+        if (svg[at] == 'i' && svg.compare(at, 4, "id=\"") != 0) continue;
+        const auto id = at + (svg[at] == '#' ? 1 : 4);
+        const auto digits = svg.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", id);
+        const auto end = svg.find_first_not_of("0123456789", digits);
+        if (end == svg.npos || digits == id || end == digits || (svg[end] != '"' && svg[end] != ')'))
+            continue;
+        out.append(svg, copied, digits - copied);
+        out += std::to_string(numbers.emplace(svg.substr(id, end - id), numbers.size()).first->second);
+        copied = at = end;
     }
-    return out.append(copied, svg.end());
+    return out.append(svg, copied);
 }
 
 std::string png(const Picture& picture) {
