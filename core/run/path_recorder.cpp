@@ -74,8 +74,7 @@ void PathRecorder::finish(RunView& run, ResultFiles& files) {
         std::string out = "trial,cycle,x,y,yaw\n";
         const auto add_trial = [&](std::size_t number, const Path& path) {
             for (const auto& p : path.points)
-                fmt::format_to(std::back_inserter(out), "{},{},{},{},{}\n", number, p.cycle, p.pose.x,
-                               p.pose.y, p.pose.yaw);
+                out += fmt::format("{},{},{},{},{}\n", number, p.cycle, p.pose.x, p.pose.y, p.pose.yaw);
         };
         for (std::size_t i = 0; i < finished_.size(); ++i) add_trial(i + 1, finished_[i]);
         if (!run.environment->resetting(robot_)) add_trial(finished_.size() + 1, current_);

@@ -53,8 +53,7 @@ Eigen::MatrixXd read_weights(const std::string& path, Index stimuli, Index respo
 void write_weights(const std::string& path, const Eigen::MatrixXd& weights) {
     std::string text;
     for (Index k = 0; k < weights.cols(); ++k) {
-        for (Index i = 0; i < weights.rows(); ++i)
-            fmt::format_to(std::back_inserter(text), "{:.6g}, ", weights(i, k));
+        for (Index i = 0; i < weights.rows(); ++i) text += fmt::format("{:.6g}, ", weights(i, k));
         text += '\n';
     }
     const std::string part = path + ".part";
