@@ -4,6 +4,7 @@
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include <Eigen/Core>
 #include <fmt/format.h>
@@ -113,14 +114,14 @@ std::string run_json(const PreparedRun& p, const RunOutcome& outcome) {
     result["files"] = outcome.files.names();
     for (const auto& r : outcome.files.recordings())
         result["recordings"].push_back({{"file", r.file}, {"source", r.source}, {"label", r.label}});
-    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::optional<FinishedRun> read_run_json(const std::string& directory) {
     std::ifstream in(directory + "/run.json");
     if (!in) return std::nullopt;
     try {
-        const auto json = Json::parse(in);
+        const auto json = Json::parse(std::string(std::istreambuf_iterator<char>(in), {}));
         FinishedRun out;
         const auto none = Json::object();
         const auto& system = json.at("system");

@@ -57,7 +57,7 @@ std::optional<RunResult> read_result(const PlannedRun& run, const std::string& k
         const auto json = Json::parse(content_of(path_of(run)));
         if (json.at("run").dump() != key) return std::nullopt;
         return result_of(json.at("result"));
-    } catch (const nlohmann::json::exception&) {
+    } catch (const Json::exception&) {
         return std::nullopt;  // absent, or of another run: the run is repeated
     }
 }
