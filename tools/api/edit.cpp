@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 #include <forage/system.h>
+#include <nlohmann/json.hpp>
 
 #include "core/base/output_files.h"
 #include "core/model/refused.h"

@@ -2,7 +2,7 @@
 // members.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "core/model/system.h"
 

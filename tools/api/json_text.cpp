@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <memory>
 
+#include <nlohmann/json.hpp>
+
 #include "core/run/input_error.h"
 
 namespace forage {
@@ -51,6 +53,15 @@ json parse_json(const std::string& text, const std::string& name) {
     } catch (const json::out_of_range&) {
         throw InputError("a number is too large");
     }
+}
+
+void check_json(const std::string& text, const std::string& name) { parse_json(text, name); }
+
+std::vector<std::string> elements_of(const std::string& list) {
+    std::vector<std::string> out;
+    for (const auto& each : json::parse(list))
+        if (!each.is_null()) out.push_back(each.is_string() ? each.get<std::string>() : each.dump());
+    return out;
 }
 
 }  // namespace forage

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "bug_interface/world/sdf_edit.h"
 #include "core/run/input_error.h"

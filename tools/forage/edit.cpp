@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 #include <forage/system.h>
-#include <nlohmann/json.hpp>
 
 #include "tools/api/json_text.h"
 #include "tools/api/sources.h"
@@ -13,12 +12,11 @@ int edit(const EditOptions& o) try {
     const bool is_json =
         first != std::string::npos && (o.operations[first] == '[' || o.operations[first] == '{');
     const auto operations = is_json ? o.operations : read_input_file(o.operations);
-    if (!is_json) parse_json(operations, o.operations);  // mistakes are in this file
+    if (!is_json) check_json(operations, o.operations);  // mistakes are in this file
     Diagnostics diagnostics;
-    const auto made = nlohmann::json::parse(edit_file(o.file, operations, o.output, o.plugins, &diagnostics));
+    const auto made = edit_file(o.file, operations, o.output, o.plugins, &diagnostics);
     fmt::print(stderr, "{}", format(diagnostics));
-    for (const auto& ids : made)
-        if (!ids.is_null()) fmt::print("{}\n", ids.is_string() ? ids.get<std::string>() : ids.dump());
+    for (const auto& ids : elements_of(made)) fmt::print("{}\n", ids);
     return fine;
 } catch (const InputError& e) {
     fmt::print(stderr, "{}", e.what());

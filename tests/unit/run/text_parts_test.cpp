@@ -2,6 +2,7 @@
 #include "tools/api/text_parts.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/run/input_error.h"
 #include "tests/support/catch.h"
