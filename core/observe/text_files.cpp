@@ -25,8 +25,8 @@ CsvFile::CsvFile(const std::string& path, const Recorded& what, const std::optio
 
 void CsvFile::add(std::uint64_t cycle, std::span<const double> numbers) {
     std::string& out = file_.buffer();
-    out += std::to_string(cycle);
-    for (const double v : numbers) out += fmt::format(",{}", v);
+    fmt::format_to(std::back_inserter(out), "{}", cycle);
+    for (const double v : numbers) fmt::format_to(std::back_inserter(out), ",{}", v);
     out += '\n';
     if (file_.full()) file_.flush();
 }
@@ -55,7 +55,7 @@ SamplerFile::SamplerFile(const std::string& path, const RowFileHeader& header,
 
 void SamplerFile::add(std::uint64_t, std::span<const double> numbers) {
     std::string& out = file_.buffer();
-    out += std::to_string(samples_++ * every_) + ';';
+    fmt::format_to(std::back_inserter(out), "{};", samples_++ * every_);
     for (const double v : numbers) {
         char text[32];  // six digits, sign, point and exponent
         const auto end = std::to_chars(text, text + sizeof text, v, std::chars_format::general, 6).ptr;
