@@ -188,4 +188,15 @@ void Physics::advance(std::size_t island, std::span<const Velocity> velocities, 
     if (contacts) separate(members);
 }
 
+void Physics::checkpoint(Archive& archive) {
+    for (State& s : states_) {
+        if (archive.loading()) s.measured = false;
+        archive(s.pose, s.present, s.touching, s.obstacle_clearance, s.bounding_radius, s.layers,
+                s.robot_contacts);
+    }
+    for (Velocity& v : velocities_) archive(v.x, v.y, v.turn);
+    archive(contact_steps_);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) checkpoint_parts(i, archive);
+}
+
 }  // namespace forage::bug

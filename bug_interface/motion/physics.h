@@ -111,16 +111,7 @@ class Physics {
     std::uint64_t contact_steps() const { return contact_steps_; }  ///< number of strides with contacts near
 
     /// Reads or writes the poses, clearances and velocities. Contacts keep no state that matters.
-    void checkpoint(Archive& archive) {
-        for (State& s : states_) {
-            if (archive.loading()) s.measured = false;
-            archive(s.pose, s.present, s.touching, s.obstacle_clearance, s.bounding_radius, s.layers,
-                    s.robot_contacts);
-        }
-        for (Velocity& v : velocities_) archive(v.x, v.y, v.turn);
-        archive(contact_steps_);
-        for (std::size_t i = 0; i < bodies_.size(); ++i) checkpoint_parts(i, archive);
-    }
+    void checkpoint(Archive& archive);
 
   private:
     struct State {

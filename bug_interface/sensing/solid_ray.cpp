@@ -133,6 +133,23 @@ void copy_rows(const Eigen::Matrix3d& from, double* to) {
 
 }  // namespace
 
+double half_height(const Solid& solid) { return 0.5 * solid.pose.linear().row(2).cwiseAbs().dot(solid.size); }
+
+double radius_squared(const Solid& solid) {
+    if (solid.kind == ShapeKind::sphere) return solid.size.x() * solid.size.x() / 4;
+    if (solid.kind == ShapeKind::cylinder)
+        return Eigen::Vector2d(solid.size.x(), solid.size.z()).squaredNorm() / 4;
+    return solid.size.squaredNorm() / 4;
+}
+
+Area area_of(const Solid& solid) {
+    const Eigen::Vector2d middle = solid.pose.translation().head<2>(),
+                          half = solid.pose.linear().topRows<2>().cwiseAbs() * solid.size / 2;
+    return {middle.x() - half.x(), middle.y() - half.y(), middle.x() + half.x(), middle.y() + half.y()};
+}
+
+Eigen::Vector3d face_normal(int face) { return Eigen::Vector3d::Unit(face / 2) * (face % 2 ? -1 : 1); }
+
 SolidInView::SolidInView(ShapeKind shape, const Eigen::Vector3d& half_extents, const Eigen::Vector3d& eye,
                          const Eigen::Matrix3d& rotation)
     : kind(shape) {

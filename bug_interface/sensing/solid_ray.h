@@ -11,28 +11,14 @@
 namespace forage::bug {
 
 /// Half the height of the bounding box of `solid`, m; an upper bound for tilted round solids.
-inline double half_height(const Solid& solid) {
-    return 0.5 * solid.pose.linear().row(2).cwiseAbs().dot(solid.size);
-}
-
+double half_height(const Solid& solid);
 /// The square of the radius of the bounding sphere of `solid`, m^2.
-inline double radius_squared(const Solid& solid) {
-    if (solid.kind == ShapeKind::sphere) return solid.size.x() * solid.size.x() / 4;
-    if (solid.kind == ShapeKind::cylinder)
-        return Eigen::Vector2d(solid.size.x(), solid.size.z()).squaredNorm() / 4;
-    return solid.size.squaredNorm() / 4;
-}
-
+double radius_squared(const Solid& solid);
 /// The bounding rectangle of `solid` in the plane.
-inline Area area_of(const Solid& solid) {
-    const Eigen::Vector2d middle = solid.pose.translation().head<2>(),
-                          half = solid.pose.linear().topRows<2>().cwiseAbs() * solid.size / 2;
-    return {middle.x() - half.x(), middle.y() - half.y(), middle.x() + half.x(), middle.y() + half.y()};
-}
-
+Area area_of(const Solid& solid);
 /// The outward normal of a flat face: face 2 * axis is on the positive side of the axis, and 2 * axis + 1 on
 /// the negative side.
-inline Eigen::Vector3d face_normal(int face) { return Eigen::Vector3d::Unit(face / 2) * (face % 2 ? -1 : 1); }
+Eigen::Vector3d face_normal(int face);
 
 /// Rays from one point. Ray i has the direction (x[i], y[i], z[i]).
 struct Rays {

@@ -2,6 +2,20 @@
 
 namespace forage::observe {
 
+void Schedule::add(Condition when, std::variant<model::Assignment, Action> change, std::string text) {
+    entries_.push_back({std::move(when), std::move(change), std::move(text), std::nullopt});
+    ++waiting_;
+}
+
+void Schedule::declare(engine::Demand& demand) const {
+    for (const auto& e : entries_) e.when.declare(demand);
+}
+
+void Schedule::checkpoint(Archive& archive) {
+    for (auto& e : entries_) archive.same(e.text, "a change"), archive(e.cycle);
+    archive(waiting_);
+}
+
 void Schedule::check(const engine::Simulation& simulation, Diagnostics& diagnostics) const {
     simulation.check(assignments(), diagnostics);
 }

@@ -26,26 +26,18 @@ class Schedule final : public Observer {
         std::string text;                    ///< as the user wrote it
         std::optional<std::uint64_t> cycle;  ///< the first cycle in which it acts; empty: not yet
     };
-    void add(Condition when, std::variant<model::Assignment, Action> change, std::string text) {
-        entries_.push_back({std::move(when), std::move(change), std::move(text), std::nullopt});
-        ++waiting_;
-    }
+    void add(Condition when, std::variant<model::Assignment, Action> change, std::string text);
 
     const std::vector<Entry>& entries() const { return entries_; }
     std::vector<model::Assignment> assignments() const;
 
-    void declare(engine::Demand& demand) const override {
-        for (const auto& e : entries_) e.when.declare(demand);
-    }
+    void declare(engine::Demand& demand) const override;
     /// Reports changes that Simulation::check() refuses.
     void check(const engine::Simulation& simulation, Diagnostics& diagnostics) const override;
     /// Makes the changes whose condition holds for the first time, in the order in which they were added.
     /// They act in the next cycle. Throws the exceptions of Simulation::set() and of actions.
     void before_cycle(RunView& run) override;
-    void checkpoint(Archive& archive) override {
-        for (auto& e : entries_) archive.same(e.text, "a change"), archive(e.cycle);
-        archive(waiting_);
-    }
+    void checkpoint(Archive& archive) override;
 
   private:
     std::vector<Entry> entries_;

@@ -39,14 +39,8 @@ class MemoryRecorder final : public Observer {
     Taken take() { return {std::exchange(cycles_, {}), std::exchange(numbers_, {})}; }
 
     void declare(engine::Demand& demand) const override { source_.declare(demand); }
-    void after_cycle(RunView& view) override {
-        const std::uint64_t cycle = view.time.cycle - 1;
-        if (cycle % every_ != 0) return;
-        cycles_.push_back(cycle);
-        numbers_.resize(numbers_.size() + source_.what().size());
-        source_.read(view.simulation, std::span(numbers_).last(source_.what().size()));
-    }
-    void checkpoint(Archive& archive) override { archive(cycles_, numbers_); }
+    void after_cycle(RunView& view) override;
+    void checkpoint(Archive& archive) override;
 
   private:
     observe::Source source_;

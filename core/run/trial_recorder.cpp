@@ -128,4 +128,10 @@ std::string trials_csv(const MeasuredTrials& trials) {
     return out;
 }
 
+void Sighting::checkpoint(Archive& archive) { archive(patch, prototype_peak); }
+
+void TrialMeasures::checkpoint(Archive& archive) { archive(start, patches, discrepancy, memory); }
+
+void TrialRecorder::checkpoint(Archive& archive) { archive(finished_, seen_); }
+
 }  // namespace forage

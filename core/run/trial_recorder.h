@@ -17,7 +17,7 @@ struct Sighting {
     std::size_t patch = 0;      ///< index of Environment::patch_colours()
     double prototype_peak = 0;  ///< highest activity of a cell of the prototype
 
-    void checkpoint(Archive& archive) { archive(patch, prototype_peak); }
+    void checkpoint(Archive& archive);
 };
 
 /// The measures of a trial apart from the robot's path.
@@ -36,7 +36,7 @@ struct TrialMeasures {
     /// The peaks of the trial; empty with fewer than two patches or without an adaptive layer.
     std::optional<Peaks> peaks() const;
 
-    void checkpoint(Archive& archive) { archive(start, patches, discrepancy, memory); }
+    void checkpoint(Archive& archive);
 };
 
 /// A trial and its measures.
@@ -81,7 +81,7 @@ class TrialRecorder final : public Observer {
     void after_cycle(RunView& run) override;
     std::vector<std::string> file_names() const override { return {file_}; }
     void finish(RunView& run, ResultFiles& files) override;
-    void checkpoint(Archive& archive) override { archive(finished_, seen_); }
+    void checkpoint(Archive& archive) override;
 
   private:
     TrialMeasures at_end(const Trial& trial, const engine::Simulation& simulation) const;

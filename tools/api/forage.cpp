@@ -60,6 +60,11 @@ ExperimentOutcome carried_out(std::optional<PreparedExperiment> prepared, const 
 
 }  // namespace
 
+void OpenOptions::checkpoint(Archive& archive) {
+    archive(world, seed, settings, plugins, threads, lenient, noise, real_time_factor, compute_everything,
+            observe, overwrite, paths);
+}
+
 Registry types(const std::vector<std::string>& plugins) {
     Diagnostics diagnostics;
     Registry out = shipped_types();

@@ -49,10 +49,7 @@ struct OpenOptions {
     std::optional<std::vector<std::string>> observe = {}, overwrite = {};
     bool paths = false;  ///< whether the paths of the robots are kept, for the picture "trajectory"
 
-    void checkpoint(Archive& archive) {
-        archive(world, seed, settings, plugins, threads, lenient, noise, real_time_factor, compute_everything,
-                observe, overwrite, paths);
-    }
+    void checkpoint(Archive& archive);
 };
 
 /// Opens a system file (.iqr) with its world. The run is ready for step(). Throws InputError. Warnings about
