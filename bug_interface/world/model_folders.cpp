@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
+#include <span>
 #include <sstream>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "bug_interface/world/sdf_format.h"
 #include "core/base/number.h"
+#include "core/base/separated.h"
 #include "core/base/text_file.h"
 #include "core/xml/check.h"
 
@@ -98,10 +99,9 @@ std::string ModelFolders::hint(std::string_view uri, const std::vector<std::stri
         if (const auto nearest = forage::nearest(name, names); !nearest.empty())
             near.push_back(fmt::format("'{}{}'", scheme, nearest));
     constexpr std::size_t few = 4, shown = 12;
-    if (!near.empty() && near.size() <= few) return fmt::format("did you mean {}?", fmt::join(near, " or "));
+    if (!near.empty() && near.size() <= few) return fmt::format("did you mean {}?", separated(near, " or "));
     const std::size_t n = std::min(names.size(), shown);
-    return fmt::format("the models are {}{}",
-                       fmt::join(names.begin(), names.begin() + static_cast<long>(n), ", "),
+    return fmt::format("the models are {}{}", separated(std::span(names).first(n), ", "),
                        n < names.size() ? fmt::format(" and {} more", names.size() - n) : "");
 }
 

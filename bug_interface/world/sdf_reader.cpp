@@ -6,9 +6,9 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "bug_interface/world/sdf_elements.h"
+#include "core/base/separated.h"
 
 namespace forage::bug {
 namespace {
@@ -246,7 +246,7 @@ bool is_a_folder(const std::string& path, Diagnostics& diagnostics) {
     diagnostics.error({std::make_shared<SourceFile>(SourceFile{path, {}}), 0, 0},
                       "this is a folder, not a world file",
                       worlds.empty() ? "give the path of a .world file"
-                                     : fmt::format("in it are {}", fmt::join(worlds, ", ")));
+                                     : fmt::format("in it are {}", separated(worlds, ", ")));
     return true;
 }
 

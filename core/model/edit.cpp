@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/separated.h"
 #include "core/model/build.h"
 #include "core/model/expression.h"
 #include "core/model/lookup.h"
@@ -62,7 +63,7 @@ std::string which(const std::vector<Owner>& owners, std::string_view where) {
     std::vector<std::string> names;
     for (const auto& o : owners)
         names.push_back(o.kind == Assignment::Owner::group ? fmt::format("{}#{}", trim(where), o.id) : o.id);
-    return fmt::format("use one of '{}'", fmt::join(names, "', '"));
+    return fmt::format("use one of '{}'", separated(names, "', '"));
 }
 
 /// The item that `where` names. Reports an unknown name, and one that several items have.

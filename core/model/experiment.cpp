@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/number.h"
+#include "core/base/separated.h"
 #include "core/model/lookup.h"
 
 namespace forage::model {
@@ -33,7 +33,7 @@ void check_adaptation(const Experiment& e, Diagnostics& diagnostics) {
         for (const auto& m : e.measures) names.push_back(m.name);
         diagnostics.error(a.measure.at, fmt::format("there is no measure '{}'", a.measure.text),
                           names.empty() ? "the experiment measures nothing yet"
-                                        : fmt::format("there are '{}'", fmt::join(names, "', '")));
+                                        : fmt::format("there are '{}'", separated(names, "', '")));
     }
     if (a.kind == Adaptation::Kind::halving) {
         if (e.sweeps.empty())

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/separated.h"
+
 namespace forage::model {
 
 GroupIndex::GroupIndex(const System& system) {
@@ -64,7 +66,7 @@ std::string suggest_group(std::string_view wanted, const std::vector<std::string
             if (!near.empty() && names[i] == near) same.push_back(paths[i]);
     }
     if (same.empty()) return suggest(wanted, paths);
-    return fmt::format("did you mean '{}'?", fmt::join(same, "' or '"));
+    return fmt::format("did you mean '{}'?", separated(same, "' or '"));
 }
 
 std::vector<GroupIndex::Entry> find_groups(const System& system, std::string_view wanted) {

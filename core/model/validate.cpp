@@ -9,6 +9,7 @@
 
 #include "core/base/exception_message.h"
 #include "core/base/named_file.h"
+#include "core/base/separated.h"
 #include "core/model/lookup.h"
 #include "core/model/original_types.h"
 
@@ -436,7 +437,7 @@ class Validator {
                          it == use.feedback.end() ? use.at : it->at,
                          fmt::format("the feedback input '{}' of {} is not set", f.name, use.type),
                          fmt::format("name a state of the target's {} in <XRefHolder name=\"Freedback\">: {}",
-                                     neuron->name, fmt::join(states, ", ")),
+                                     neuron->name, separated(states, ", ")),
                          {},
                          f.name});
             } else if (std::find(states.begin(), states.end(), it->target) == states.end()) {
@@ -457,7 +458,7 @@ class Validator {
             if (p.id == id) {
                 std::vector<std::string> own;
                 for (const auto& g : p.groups) own.push_back(g.id);
-                return fmt::format("'{}' is a process; its groups are '{}'", id, fmt::join(own, "', '"));
+                return fmt::format("'{}' is a process; its groups are '{}'", id, separated(own, "', '"));
             }
         for (std::size_t i = 0; i < paths.size(); ++i)
             if (paths[i] == id || paths[i].substr(paths[i].find('/') + 1) == id)

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/separated.h"
 #include "core/model/lookup.h"
 
 namespace forage::observe {
@@ -63,7 +64,7 @@ std::optional<ColumnRef> find_synapses(const engine::Layout& s, const expression
         std::vector<std::string> ids;
         for (const int c : found) ids.push_back(s.connections[c].id);
         context.error(piece.at, fmt::format("'{}' names {} connections", name, found.size()),
-                      fmt::format("use the id: '{}'", fmt::join(ids, "', '")));
+                      fmt::format("use the id: '{}'", separated(ids, "', '")));
         return std::nullopt;
     }
     const auto& connection = s.connections[found.front()];
@@ -83,7 +84,7 @@ std::optional<ColumnRef> find_synapses(const engine::Layout& s, const expression
         piece.at,
         state.empty() ? fmt::format("'{}' names a connection, not a group", name)
                       : fmt::format("{} has no state '{}'", connection.type.name, state),
-        fmt::format("its synapses have '{1}:{0}'", fmt::join(known, fmt::format("', '{}:", name)), name));
+        fmt::format("its synapses have '{1}:{0}'", separated(known, fmt::format("', '{}:", name)), name));
     return std::nullopt;
 }
 
@@ -126,7 +127,7 @@ std::optional<ColumnRef> find_column(const engine::Layout& s, const expression::
                       found.empty() ? fmt::format("there is no group '{}'", path)
                                     : fmt::format("'{}' names {} groups", path, found.size()),
                       found.empty() ? model::suggest_group(path, names)
-                                    : fmt::format("use one of '{}'", fmt::join(names, "', '")));
+                                    : fmt::format("use one of '{}'", separated(names, "', '")));
         return std::nullopt;
     }
     const int group = found.front();

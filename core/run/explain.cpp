@@ -6,9 +6,9 @@
 #include <queue>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/number.h"
+#include "core/base/separated.h"
 #include "core/model/lookup.h"
 #include "core/model/validate.h"
 
@@ -158,7 +158,7 @@ class Explainer {
                 return fmt::format(
                     "it received no excitation, although {} was active: look at the weight and the "
                     "attenuation of the connection, and at excGain",
-                    fmt::join(active, " and "));
+                    separated(active, " and "));
             for (const int m : wires.writers)
                 return fmt::format("the module of process '{}' wrote only zeros to it",
                                    layout_.modules[at(m)].process);
@@ -223,7 +223,7 @@ class Explainer {
         for (std::size_t step = first; step != from; step = next.at(step)) names.push_back(name(step));
         names.push_back(name(from));
         std::reverse(names.begin(), names.end());
-        return fmt::format("{}. {} is the first silent group on the way back: ", fmt::join(names, " <- "),
+        return fmt::format("{}. {} is the first silent group on the way back: ", separated(names, " <- "),
                            name(first));
     }
 
@@ -263,14 +263,14 @@ std::vector<std::string> wiring_notes(const model::System& system, const Layout&
         else if (reads_input(about.type))
             out.push_back(fmt::format("nothing drives group '{}'", about.path));
     }
-    std::map<std::string_view, std::vector<int>> lines;  // by name
+    std::map<std::string_view, std::vector<std::string>> lines;  // by name
     for (const auto& c : system.connections)
-        if (!c.name.empty()) lines[c.name].push_back(c.at.line);
+        if (!c.name.empty()) lines[c.name].push_back(std::to_string(c.at.line));
     for (const auto& [name, where] : lines)
         if (where.size() > 1)
             out.push_back(
                 fmt::format("{} connections have the name '{}', on lines {}; options name them by their ids",
-                            where.size(), name, fmt::join(where, ", ")));
+                            where.size(), name, separated(where, ", ")));
     return out;
 }
 

@@ -8,9 +8,9 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/output_files.h"
+#include "core/base/separated.h"
 #include "core/observe/npz.h"
 
 namespace forage {
@@ -217,7 +217,7 @@ void Recordings::finish(RunView& run, ResultFiles& files) {
         });
     if (empty.empty()) return;
     files.warn(
-        fmt::format("no row was recorded of '{}': the run had {} cycles", fmt::join(empty, "', '"),
+        fmt::format("no row was recorded of '{}': the run had {} cycles", separated(empty, "', '"),
                     run.time.cycle),
         options_.until && *options_.until < options_.from
             ? fmt::format("--record-until {} is before --record-from {}", *options_.until, options_.from)

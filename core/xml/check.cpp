@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/named_file.h"
 #include "core/base/number.h"
+#include "core/base/separated.h"
 #include "core/types/parameter.h"
 
 namespace forage::xml {
@@ -116,7 +116,7 @@ class Checker {
                        fmt::format("<{}> holds {}, it needs {}", e.name(),
                                    chosen ? "only one element" : "no element", amount(rule)),
                        fmt::format("{} of <{}>", rule.choose > 1 ? "source, then target, each one" : "one",
-                                   fmt::join(names_of(rule.children), ">, <")));
+                                   separated(names_of(rule.children), ">, <")));
         for (std::size_t i = 0; i < count.size(); ++i)
             if (const ChildRule& c = rule.children[i]; count[i] < c.least)
                 structural(e.where(), fmt::format("<{}> needs the element <{}>", e.name(), c.name),
@@ -198,7 +198,7 @@ class Checker {
         } else if (rule.kind == ValueKind::choice) {
             if (std::find(rule.choices.begin(), rule.choices.end(), v.view) == rule.choices.end())
                 out_.error(v.where(),
-                           fmt::format("'{}' is not one of {}", v.view, fmt::join(rule.choices, ", ")),
+                           fmt::format("'{}' is not one of {}", v.view, separated(rule.choices, ", ")),
                            suggest(v.view, rule.choices));
         } else if (rule.kind == ValueKind::boolean) {
             if (!v.flag() || (!format_.open && v.view != "true" && v.view != "false"))

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/number.h"
+#include "core/base/separated.h"
 #include "core/xml/check.h"
 
 namespace forage::xml {
@@ -104,7 +104,7 @@ class ExperimentReader {
             }
         if (!found && !misspelt(e))
             out_.error(e.where(), fmt::format("<{}> does not say what it is", e.name()),
-                       fmt::format("give it one of '{}'", fmt::join(names, "', '")));
+                       fmt::format("give it one of '{}'", separated(names, "', '")));
         return found;
     }
 

@@ -5,7 +5,8 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include "core/base/separated.h"
 
 namespace forage::sec {
 namespace {
@@ -48,7 +49,7 @@ void check_option(const Options<T, n>& all, const char* parameter, const std::st
     for (const auto& entry : all) names.emplace_back(entry.first);
     if (std::find(names.begin(), names.end(), name) == names.end())
         diagnostics.error(at_parameter(parameter), fmt::format("'{}' cannot be '{}'", parameter, name),
-                          fmt::format("use one of: {}", fmt::join(names, ", ")));
+                          fmt::format("use one of: {}", separated(names, ", ")));
 }
 
 /// The number of the most active cell, the first one of several; -1 if none is above 0.

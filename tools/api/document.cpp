@@ -4,10 +4,10 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/named_file.h"
 #include "core/base/output_files.h"
+#include "core/base/separated.h"
 #include "core/base/text_difference.h"
 #include "core/base/text_file.h"
 #include "core/model/edit.h"
@@ -298,7 +298,7 @@ bool Document::reload(Keep keep) {
                              "keep yours, or take the text of the file");
         const auto merged = model::merge(*base, system_, *there);
         if (!merged.conflicts.empty())
-            throw InputError(fmt::format("both have changed {}", fmt::join(merged.conflicts, ", ")),
+            throw InputError(fmt::format("both have changed {}", separated(merged.conflicts, ", ")),
                              "keep yours, or take the text of the file");
         auto patch = xml::patch(path_, theirs, *there, merged.system, lenient_);
         if (!patch.system) throw InputError(std::move(patch.diagnostics));

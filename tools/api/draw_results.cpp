@@ -3,10 +3,10 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/named_file.h"
 #include "core/base/output_files.h"
+#include "core/base/separated.h"
 #include "tools/api/results.h"
 #include "tools/api/sources.h"
 #include "tools/plot/occupancy.h"
@@ -86,7 +86,7 @@ std::string draw_rows(const Results& results, const PlotSpec& spec, const std::o
         for (const auto& r : results.recordings) names.push_back(r.what.name);
         diagnostics.error(
             {}, fmt::format("'{}': there is no such recording", spec.text),
-            names.empty() ? how_to_record : fmt::format("there are '{}'", fmt::join(names, "', '")));
+            names.empty() ? how_to_record : fmt::format("there are '{}'", separated(names, "', '")));
         return {};
     }
     plot::RowPlot drawn(spec, part->what, loaded ? &loaded->system : nullptr);

@@ -7,9 +7,9 @@
 #include <unordered_map>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/number.h"
+#include "core/base/separated.h"
 #include "core/base/table.h"
 #include "tools/plot/heat.h"
 #include "tools/plot/lines.h"
@@ -185,7 +185,7 @@ std::optional<plot::Picture> draw_measure(const PlotSpec& spec, const RunTable& 
     };
     if (measure == table.measures.size())
         return refuse(fmt::format("there is no measure '{}'", spec.what),
-                      fmt::format("the experiment has '{}'", fmt::join(table.measures, "', '")));
+                      fmt::format("the experiment has '{}'", separated(table.measures, "', '")));
     if (axes.empty())
         return refuse("no parameter varies among these runs", "'learning' and 'occupancy' need no parameter");
     if (!has_numbers(table, measure))
@@ -195,7 +195,7 @@ std::optional<plot::Picture> draw_measure(const PlotSpec& spec, const RunTable& 
                       fmt::format("use 'curve:{}'", spec.what));
     if (as_heat && axes.size() > 2)
         return refuse(fmt::format("a heat map has two parameters, and here {} vary: '{}'", axes.size(),
-                                  fmt::join(names, "', '")),
+                                  separated(names, "', '")),
                       fmt::format("fix the others: --where '{}'", example_of(axes[2])));
     if (!as_heat && lines_of(axes) > unreadable_lines)
         return refuse(fmt::format("{} lines are too many for a picture", lines_of(axes)),

@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "bug_interface/motion/motor.h"
+#include "core/base/separated.h"
 
 namespace forage {
 
@@ -96,7 +96,7 @@ std::string MotorStatistics::sentence(const Motor& m) const {
     if (rest > 0) parts.push_back("other cells " + share(rest));
     if (won < m.cycles) parts.push_back("no command " + share(m.cycles - won));
     std::string out = fmt::format("{} drove the robot {}: {} of the cycles", m.path,
-                                  world_.robot(m.robot).name, fmt::join(parts, ", "));
+                                  world_.robot(m.robot).name, separated(parts, ", "));
     if (m.tied > 0)
         out += fmt::format(
             "; in {}, several cells were equally active, and only their order decided which one won",

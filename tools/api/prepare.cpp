@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "bug_interface/versions.h"
 #include "core/base/cores.h"
+#include "core/base/separated.h"
 #include "core/observe/manipulation_spec.h"
 #include "core/run/broadcaster.h"
 #include "core/run/checkpoint_file.h"
@@ -228,7 +228,7 @@ void clear_directory(const RunSpec& spec, Diagnostics& diagnostics) {
     if (!removed.empty())
         diagnostics.warning(
             {}, fmt::format("removed from '{}', as a run was killed before it finished them: {}", directory,
-                            fmt::join(removed, ", ")));
+                            separated(removed, ", ")));
 }
 
 void begin(PreparedRun& p) {

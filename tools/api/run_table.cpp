@@ -6,9 +6,9 @@
 #include <unordered_set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/number.h"
+#include "core/base/separated.h"
 #include "core/base/table.h"
 
 namespace forage {
@@ -34,7 +34,7 @@ std::string short_name(const RunTable& table, std::size_t parameter) {
 std::string joined(const std::vector<std::string>& values, const std::vector<std::size_t>& parameters) {
     std::vector<std::string> out;
     for (const std::size_t p : parameters) out.push_back(values[p]);
-    return fmt::format("{}", fmt::join(out, ", "));
+    return separated(out, ", ");
 }
 
 /// What some parameters have: the different values, in the order of the table.
@@ -106,12 +106,12 @@ void keep_runs(RunTable& table, const std::vector<std::string>& where, Diagnosti
         const auto meant = full_names(table, name);
         if (p == seed && meant.size() > 1) {
             diagnostics.error({}, fmt::format("--where '{}': '{}' is ambiguous", text, name),
-                              fmt::format("name one of '{}'", fmt::join(meant, "', '")));
+                              fmt::format("name one of '{}'", separated(meant, "', '")));
             continue;
         }
         if (p == seed && name != "seed") {
             diagnostics.error({}, fmt::format("--where '{}': no parameter '{}' was swept", text, name),
-                              fmt::format("there are '{}{}seed'", fmt::join(table.parameters, "', '"),
+                              fmt::format("there are '{}{}seed'", separated(table.parameters, "', '"),
                                           seed > 0 ? "', '" : ""));
             continue;
         }
@@ -125,14 +125,14 @@ void keep_runs(RunTable& table, const std::vector<std::string>& where, Diagnosti
         });
         if (found == values.end()) {
             diagnostics.error({}, fmt::format("--where '{}': no run has this value", text),
-                              fmt::format("there are '{}'", fmt::join(values, "', '")));
+                              fmt::format("there are '{}'", separated(values, "', '")));
             continue;
         }
         wanted.emplace_back(p, *found);
         parts.push_back(fmt::format("{}={}", p == seed ? "seed" : short_name(table, p), *found));
     }
     if (diagnostics.failed()) return;
-    table.part = fmt::format("{}", fmt::join(parts, ", "));
+    table.part = separated(parts, ", ");
     std::erase_if(table.rows, [&](const RunTable::Row& row) {
         return !std::all_of(wanted.begin(), wanted.end(), [&](const auto& w) {
             return std::any_of(wanted.begin(), wanted.end(), [&](const auto& other) {
@@ -191,7 +191,7 @@ std::string name_of(const Condition& condition, const std::vector<Axis>& axes, c
     for (const auto& axis : axes)
         for (const std::size_t p : axis.parameters)
             parts.push_back(fmt::format("{} = {}", short_name(table, p), condition.values[p]));
-    return fmt::format("{}", fmt::join(parts, ", "));
+    return separated(parts, ", ");
 }
 
 }  // namespace forage

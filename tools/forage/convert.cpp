@@ -4,9 +4,9 @@
 #include <set>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/output_files.h"
+#include "core/base/separated.h"
 #include "core/model/build.h"
 #include "core/model/edit.h"
 #include "core/model/lookup.h"
@@ -41,7 +41,7 @@ std::string about_import(model::System& system, const std::string& id) {
     return fmt::format(
         "imported '{}'; nothing connects it with the other processes yet\n"
         "  write each <Connection> that it needs; the ids of its groups are {}\n",
-        model::trim(process.name), fmt::join(groups, ", "));
+        model::trim(process.name), separated(groups, ", "));
 }
 
 std::string process_id(const model::System& system, const std::string& wanted, Diagnostics& diagnostics) {

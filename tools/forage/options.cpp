@@ -5,9 +5,9 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/number.h"
+#include "core/base/separated.h"
 #include "core/run/experiment/parts.h"
 
 namespace forage::tool {
@@ -48,12 +48,12 @@ CLI::Validator threads() {
                        "a whole number from 1 to 1024");
 }
 CLI::Validator one_of(std::vector<std::string> names) {
-    const std::string set = fmt::format("{{{}}}", fmt::join(names, ","));  // for completion
+    const std::string set = fmt::format("{{{}}}", separated(names, ","));  // for completion
     return CLI::Validator(
         [names = std::move(names)](const std::string& text) {
             return std::find(names.begin(), names.end(), text) != names.end()
                        ? std::string()
-                       : fmt::format("'{}' is none of {}", text, fmt::join(names, ", "));
+                       : fmt::format("'{}' is none of {}", text, separated(names, ", "));
         },
         set);
 }

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/separated.h"
+
 namespace forage::tool {
 namespace {
 
@@ -77,11 +79,11 @@ std::string bash(const CLI::App& app) {
             for (const auto& l : a.longs)
                 values +=
                     fmt::format("        '{} --{}') COMPREPLY=($(compgen -W '{}' -- \"$cur\")); return;;\n",
-                                c->get_name(), l, fmt::join(a.choices, " "));
+                                c->get_name(), l, separated(a.choices, " "));
             if (a.longs.empty())
                 values +=
                     fmt::format("        '{0} {0}') COMPREPLY=($(compgen -W '{1}' -- \"$cur\")); return;;\n",
-                                c->get_name(), fmt::join(a.choices, " "));
+                                c->get_name(), separated(a.choices, " "));
         }
         options +=
             fmt::format("        {}) COMPREPLY=($(compgen -W '{}' -- \"$cur\"));;\n", c->get_name(), all);
@@ -112,7 +114,7 @@ std::string zsh(const CLI::App& app) {
         names += fmt::format(" {}", quoted(c->get_name() + ":" + plain(c->get_description())));
         cases += fmt::format("        {}) _arguments", c->get_name());
         for (const auto& a : arguments(*c)) {
-            const std::string action = !a.choices.empty() ? fmt::format("({})", fmt::join(a.choices, " "))
+            const std::string action = !a.choices.empty() ? fmt::format("({})", separated(a.choices, " "))
                                        : a.files()        ? "_files"
                                                           : "";
             const std::string value = a.value.empty() ? "" : fmt::format(":{}:{}", plain(a.value), action);
@@ -153,7 +155,7 @@ std::string fish(const CLI::App& app) {
             for (const auto& s : a.shorts) line += " -s " + s;
             for (const auto& l : a.longs) line += " -l " + l;
             if (!a.choices.empty())
-                line += fmt::format(" -x -a '{}'", fmt::join(a.choices, " "));
+                line += fmt::format(" -x -a '{}'", separated(a.choices, " "));
             else if (!a.value.empty() && !(a.longs.empty() && a.shorts.empty()))
                 line += a.files() ? " -r" : " -x";
             if (a.longs.empty() && a.shorts.empty() && a.choices.empty())

@@ -1,9 +1,9 @@
 #include "tools/forage/summary.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/cores.h"
+#include "core/base/separated.h"
 #include "tools/forage/trial_summary.h"
 
 namespace forage::tool {
@@ -81,7 +81,7 @@ std::string summary(const PreparedRun& p, const RunOutcome& outcome, bool resuma
     if (!outcome.state.empty()) line("state", outcome.state);
     if (resumable) line("to go on", "forage resume " + p.spec.directory);
     if (!outcome.files.names().empty())
-        line("written", fmt::format("{}: {}", p.spec.directory, fmt::join(outcome.files.names(), ", ")));
+        line("written", fmt::format("{}: {}", p.spec.directory, separated(outcome.files.names(), ", ")));
     return out;
 }
 

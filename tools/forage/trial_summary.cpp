@@ -5,7 +5,8 @@
 #include <map>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
+
+#include "core/base/separated.h"
 
 namespace forage::tool {
 namespace {
@@ -30,7 +31,7 @@ std::string by_start(const Environment& world, const MeasuredTrials& trials) {
         const auto& pose = starts[static_cast<std::size_t>(start - 1)];
         out.push_back(fmt::format("{} of {} from ({:g}, {:g})", count.reached, count.all, pose.x, pose.y));
     }
-    return fmt::format("{}", fmt::join(out, ", "));
+    return separated(out, ", ");
 }
 
 /// "88 96 100 %": the success ratio of successive blocks of trials, at most 20.
@@ -44,7 +45,7 @@ std::string over_time(const MeasuredTrials& trials) {
         for (std::size_t i = first; i < first + block; ++i) count.add(all[i]);
         out.push_back(fmt::format("{:.0f}", count.percent()));
     }
-    return fmt::format("{} % at the target, {} trials after {}", fmt::join(out, " "), block, block);
+    return fmt::format("{} % at the target, {} trials after {}", separated(out, " "), block, block);
 }
 
 /// "cyan > red 31 of 33, ...", the most frequent first.
@@ -60,7 +61,7 @@ std::string by_route(const MeasuredTrials& trials) {
         out.push_back(
             fmt::format("{} {} of {}", sorted[i].first, sorted[i].second.reached, sorted[i].second.all));
     if (sorted.size() > most) out.push_back(fmt::format("and {} others", sorted.size() - most));
-    return fmt::format("{}", fmt::join(out, ", "));
+    return separated(out, ", ");
 }
 
 void adaptive_lines(const std::vector<MeasuredTrial>& trials, Lines& lines) {

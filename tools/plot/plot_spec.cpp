@@ -4,9 +4,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/output_files.h"
+#include "core/base/separated.h"
 
 namespace forage::plot {
 
@@ -24,7 +24,7 @@ std::string PlotSpec::after(std::uint64_t end) const {
             c.first > end ? c.first : c.first + ((end - c.first) / c.step + 1) * c.step;
         out.push_back(first == last ? fmt::format("{}", first) : fmt::format("{}..{}", first, last));
     }
-    return fmt::format("{}", fmt::join(out, ", "));
+    return separated(out, ", ");
 }
 
 std::string PlotSpec::file(Format format) const {

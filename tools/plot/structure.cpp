@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/separated.h"
 #include "core/connectivity/grid.h"
 #include "core/model/lookup.h"
 #include "core/model/validate.h"
@@ -130,7 +131,7 @@ const model::Connection* find_connection(const model::System& system, std::strin
                           suggest(name, names));
     else
         diagnostics.error(at, fmt::format("{}: '{}' names {} connections", option, name, found.size()),
-                          fmt::format("use the id: '{}'", fmt::join(ids, "', '")));
+                          fmt::format("use the id: '{}'", separated(ids, "', '")));
     return nullptr;
 }
 

@@ -6,10 +6,10 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "core/base/estimate.h"
 #include "core/base/number.h"
+#include "core/base/separated.h"
 
 namespace forage {
 namespace {
@@ -118,7 +118,7 @@ std::string adaptation_note(const model::Experiment& e, const RunPlan& plan,
             values.push_back(fmt::format("{} = {}", e.sweeps[i].parameter.text, plan.values(best)[i]));
         const auto found = estimate(numbers_of(e, plan, results, best));
         return fmt::format("the {} '{}', {}, is that of {}", a.highest ? "highest" : "lowest", a.measure.text,
-                           found ? plain_number(found->mean, 4) : "none", fmt::join(values, ", "));
+                           found ? plain_number(found->mean, 4) : "none", separated(values, ", "));
     }
     std::size_t enough = 0;
     for (std::size_t c = 0; c < plan.combinations(); ++c)

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number.h"
+#include "core/base/separated.h"
 
 namespace forage {
 namespace {
@@ -26,7 +27,7 @@ std::string field(const std::optional<T>& value) {
 }
 
 std::string row(const std::vector<std::string>& fields) {
-    return fmt::format("{}\n", fmt::join(fields, ","));
+    return fmt::format("{}\n", separated(fields, ","));
 }
 
 struct Statistics {
