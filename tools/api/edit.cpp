@@ -93,7 +93,11 @@ json edit_system(const std::string& path, const json& operations, const std::str
     throw_errors(diagnostics);
     const auto before = document.problems(types);
     json made = json::array();
-    const auto is_text = [](const json& o) { return o.is_object() && o.value("do", json()) == "replace"; };
+    const auto is_text = [](const json& o) {
+        if (!o.is_object() || !o.contains("do")) return false;
+        const auto* what = o["do"].get_ptr<const std::string*>();
+        return what && *what == "replace";
+    };
     const auto replace = [&](const json& o) {
         document.replace_text(editing::with_parts_replaced(document.text(), o), "replace");
         return json();
