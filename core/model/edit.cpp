@@ -241,6 +241,12 @@ void set(System& system, const Assignment& a) {
                              : to_text(a.value));
 }
 
+System with(const System& system, const Assignment& assignment) {
+    System out = system;
+    set(out, assignment);
+    return out;
+}
+
 void set_as_in(const System& other, System& system, const Assignment& a) {
     if (!a.parameter) return set(system, a);
     use_of(system, a).settings = use_of(other, a).settings;

@@ -41,6 +41,8 @@ std::vector<std::string> parameter_names(const System& system, const Registry& r
 
 /// Sets the parameter in the system, which must be the one that parse_assignment() was given.
 void set(System& system, const Assignment& assignment);
+/// A copy of the system in which the parameter is set.
+System with(const System& system, const Assignment& assignment);
 /// Gives what an assignment changes the parameters that it has in another system, as they are written there.
 void set_as_in(const System& other, System& system, const Assignment& assignment);
 /// The value that the system has for a parameter: what its file sets, or the default of its type.

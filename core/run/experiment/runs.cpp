@@ -24,10 +24,8 @@ void check_value(const model::Sweep& sweep, const model::Expression& value, cons
         model::parse_assignment(run.system(), run.registry(), sweep.parameter.text + "=" + value.text,
                                 "sweep", diagnostics, value.at);
     if (!assignment) return;
-    model::System system = run.system();
-    model::set(system, *assignment);
     Diagnostics found;
-    model::validate(system, run.registry(), found, run.environment());
+    model::validate(model::with(run.system(), *assignment), run.registry(), found, run.environment());
     for (const auto& d : found.all())
         if (d.severity == Severity::error)
             diagnostics.error(
