@@ -1,7 +1,6 @@
 #include "core/observe/text_files.h"
 
 #include <charconv>
-#include <iterator>
 
 #include <fmt/format.h>
 

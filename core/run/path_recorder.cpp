@@ -1,7 +1,6 @@
 #include "core/run/path_recorder.h"
 
 #include <cmath>
-#include <iterator>
 
 #include <fmt/format.h>
 
