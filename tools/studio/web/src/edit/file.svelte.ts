@@ -22,6 +22,8 @@ class FileDialog {
   /** The process that is exported. */
   process = $state<string | null>(null);
   listing = $state.raw<FilesResult | null>(null);
+  /** The listing that is on its way: a name is one of its folder, not of the one that was shown before. */
+  private listed: Promise<void> = Promise.resolve();
   recent = $state.raw<string[]>([]);
   name = $state('');
   /** The world of a system that is opened or begun; empty for none. */
@@ -53,7 +55,10 @@ class FileDialog {
     this.name = task.name ?? '';
     void this.list(editing.shipped ? '.' : '');
   }
-  async list(folder: string): Promise<void> {
+  list(folder: string): Promise<void> {
+    return (this.listed = this.read(folder));
+  }
+  private async read(folder: string): Promise<void> {
     try {
       this.listing = await request<FilesResult>('files', { folder });
       this.error = '';
@@ -79,8 +84,9 @@ class FileDialog {
   }
   /** Does what the dialog is for. Stays open, with the reason, when that is refused. */
   async act(overwrite = false): Promise<void> {
-    const file = this.file();
-    const action = this.action!;
+    await this.listed;
+    const file = this.file(), action = this.action;
+    if (!action) return; // it was closed meanwhile
     const steps: Record<FileAction, () => Promise<unknown>> = {
       open: () => request('open', { system: file, world: this.world.trim() }),
       'save as': () => request('save', { file: /\.iqr$|\.xml$/.test(file) ? file : `${file}.iqr`, overwrite }),
