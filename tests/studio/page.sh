@@ -1,14 +1,13 @@
 #!/bin/sh
-# Tests the studio's page: page.sh check|browser PAGE FORAGE SOURCES, with PAGE the folder of the build that has its node_modules.
+# Tests the studio's page: page.sh check|browser PAGE FORAGE SOURCES [TOPIC...], with PAGE the folder of the build that has its node_modules.
 # Exit code 77 when Node, the packages or the browser are missing.
 command -v node >/dev/null || { echo "SKIPPED: there is no Node"; exit 77; }
 [ -d "$2/node_modules/vitest" ] || { echo "SKIPPED: the page was not built, see tools/studio/web"; exit 77; }
 export FORAGE_TUTORIAL="$4/docs/tutorial"
 rm -rf "$2/tests" && cp -r "$4/tools/studio/web/tests" "$2" && cd "$2" || exit 1
-case $1 in
+kind=$1 forage=$3 sources=$4
+shift 4
+case $kind in
     check) npm run --silent check && npm run --silent test ;;
-    browser) for test in tests/browser/*_test.mjs; do
-                 echo "$test"
-                 node "$test" "$3" "$4" || exit
-             done ;;
+    browser) node tests/browser/run.mjs "$forage" "$sources" "$@" ;;
 esac

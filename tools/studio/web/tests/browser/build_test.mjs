@@ -1,14 +1,10 @@
 // From nothing to a foraging robot, by mouse and keyboard alone: the reactive layer of the tutorial is built from an empty system, saved, checked and
-// run by the command line, and its groups and connections are those of the shipped one. node build_test.mjs FORAGE SOURCES [SCREENSHOT]
+// run by the command line, and its groups and connections are those of the shipped one.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
-import { join, resolve } from 'node:path';
-import { inBrowser } from './support.mjs';
-
-const [forage, sources, screenshot] = process.argv.slice(2).map((p) => resolve(p));
-const step = (text) => console.log(text);
-const run = (folder, ...args) => execFileSync(forage, args, { cwd: folder, encoding: 'utf8' });
+import { join } from 'node:path';
+import { picture, until } from './support.mjs';
 
 // What the tutorial says of the groups: place on the page, size, and the parameters that differ from the defaults.
 const relay = {};
@@ -26,13 +22,9 @@ const selection = {
   'Const Speed': { at: [400, 520], size: [1, 1], type: 'neuronRandomSpike', set: { probability: 1, spkAmpl: 1 } },
 };
 
-await inBrowser(sources, async ({ folder, context, start, until }) => {
-  const faults = [];
-  const studio = start(forage, ['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
-  const page = await context.newPage();
-  page.on('pageerror', (e) => faults.push(e.message));
-  page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
-  await page.goto(await studio.address);
+export default async function ({ forage, folder, start, open, faults, step }) {
+  const page = await open(await start(['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']).address);
+  const run = (...args) => execFileSync(forage, args, { cwd: folder, encoding: 'utf8' });
   const diagram = page.getByRole('group', { name: 'Diagram' });
   const inspector = page.getByRole('region', { name: 'Inspector' });
   const canvas = diagram.getByRole('application', { name: 'Canvas' });
@@ -175,7 +167,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await inspector.getByLabel('Tuples as text').fill('1,1:1,4 2,1:1,1|2,1 3,1:3,1 4,1:4,1 5,1:5,1 6,1:6,1 7,1:7,1 8,1:8,1|9,1 9,1:9,4');
   await inspector.getByRole('button', { name: 'Add these' }).click();
   await inspector.getByText('11 synapses', { exact: true }).waitFor();
-  if (screenshot) await page.screenshot({ path: screenshot });
+  await picture(page, 'build');
 
   step('no problems are left; it is saved');
   await page.keyboard.press('Escape');
@@ -188,9 +180,9 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await until(page, 'the file', () => !document.title.startsWith('●'));
 
   step('the command line checks it, describes the same connections, and runs it');
-  const described = (file) => JSON.parse(run(folder, 'describe', file, '--format', 'json'));
+  const described = (file) => JSON.parse(run('describe', file, '--format', 'json'));
   const mine = 'mine.iqr';
-  run(folder, 'check', mine, '--world', 'systems/worlds/basic_arena.world');
+  run('check', mine, '--world', 'systems/worlds/basic_arena.world');
   const [built, shipped] = [mine, 'systems/reactive_foraging.iqr'].map(described);
   // The shipped file writes out the weight, which is the default.
   const plain = (system) => system.connections.map(({ id, notes, synapse, ...c }) => ({ ...c, synapse: { ...synapse, parameters: { weight: '1', ...synapse.parameters } } })).sort((a, b) => a.name.localeCompare(b.name));
@@ -202,7 +194,6 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
     return [...system.querySelectorAll('Connection')].map((c) => [c.getAttribute('name'), [...c.querySelectorAll('Tuple')].map((t) => `${places(t.querySelector('SourceList'))}:${places(t.querySelector('TargetList'))}`)]).sort();
   }, readFileSync(join(folder, file), 'utf8'));
   assert.deepEqual(await patterns(mine), await patterns('systems/reactive_foraging.iqr'));
-  run(folder, 'run', mine, '--world', 'systems/worlds/basic_arena.world', '--cycles', '200');
+  run('run', mine, '--world', 'systems/worlds/basic_arena.world', '--cycles', '200');
   assert.deepEqual(faults, []);
-  console.log('all fine');
-});
+}

@@ -1,23 +1,14 @@
-// Comments, phantoms and lines between processes on the canvas, in Chromium against the real program: node canvas_test.mjs FORAGE SOURCES [PICTURES]
+// Comments, phantoms and lines between processes on the canvas, in Chromium against the real program.
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import { join, resolve } from 'node:path';
-import { inBrowser } from './support.mjs';
+import { join } from 'node:path';
+import { accessible, find, picture, until } from './support.mjs';
 
-const [forage, sources, pictures] = process.argv.slice(2).map((p) => resolve(p));
-const step = (text) => console.log(text);
-
-await inBrowser(sources, async ({ folder, context, start, until }) => {
+export default async function ({ folder, context, start, open, faults, step }) {
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);
-  const faults = [];
   const file = join(folder, 'systems/reactive_foraging.iqr');
   const original = readFileSync(file, 'utf8');
-  const studio = start(forage, ['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
-  const page = await context.newPage();
-  page.on('pageerror', (e) => faults.push(e.message));
-  page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
-  await page.goto(await studio.address);
+  const page = await open(await start(['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']).address);
   const diagram = page.getByRole('group', { name: 'Diagram' });
   const canvas = diagram.getByRole('application', { name: 'Canvas' });
   const inspector = page.getByRole('region', { name: 'Inspector' });
@@ -87,10 +78,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   const returns = (selector, to) => until(page, `${selector} is back`, ([s, was]) => document.querySelector(s)?.style.transform === was, [selector, to]);
 
   await page.getByRole('group', { name: 'Arena' }).waitFor();
-  await page.keyboard.press('Control+k');
-  await until(page, 'the field of the palette', () => document.activeElement?.matches('[role=combobox]'));
-  await page.keyboard.type('layout: build');
-  await page.keyboard.press('Enter');
+  await find(page, 'layout: build');
   await tab('Selection');
 
   step('a comment is placed by a click and written; it is one step, and nothing else in the file changes');
@@ -294,7 +282,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
     await connect.waitFor({ state: 'hidden' });
     await until(page, 'another line', (n) => document.querySelectorAll('g[data-connection]').length === n + 1, drawn);
   }
-  if (pictures) await page.screenshot({ path: join(pictures, 'parallel.png') });
+  await picture(page, 'parallel');
   const added = (await drawnHere()).filter((id) => !known.includes(id));
   const chosenLine = (id) => until(page, `${id} is chosen`, (c) => [...document.querySelectorAll('g[data-connection].chosen')].map((g) => g.dataset.connection).join() === c, id);
   for (const size of ['large', 'small']) {
@@ -332,10 +320,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await tab('System');
   await comments.first().click();
   await inspector.getByLabel('Text', { exact: true }).waitFor();
-  await page.evaluate(readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8'));
-  const serious = () => page.evaluate(async () => (await window.axe.run({ exclude: ['.dv-tab'] }, { resultTypes: ['violations'] })).violations.filter((f) => ['serious', 'critical'].includes(f.impact)).map((f) => `${f.id}: ${f.nodes.slice(0, 3).map((n) => n.html.slice(0, 160)).join(' | ')}`));
-  assert.deepEqual(await serious(), []);
+  await accessible(page);
 
   assert.deepEqual(faults, []);
-  console.log('all fine');
-});
+}

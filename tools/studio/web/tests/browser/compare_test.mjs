@@ -1,15 +1,10 @@
-// Two runs side by side in Chromium, and what the canvases show: node compare_test.mjs FORAGE SOURCES [SCREENSHOT]
+// Two runs side by side in Chromium, and what the canvases show.
 import assert from 'node:assert/strict';
-import { readFileSync, writeFileSync } from 'node:fs';
-import { resolve } from 'node:path';
-import { inBrowser } from './support.mjs';
+import { readFileSync } from 'node:fs';
+import { eventually, picture, until } from './support.mjs';
 
-const [forage, sources, screenshot] = process.argv.slice(2).map((p) => resolve(p));
-const step = (text) => console.log(text);
-
-await inBrowser(sources, async ({ context, start, until }) => {
-  const page = await context.newPage();
-  await page.goto(await start(forage).address);
+export default async function ({ start, open, step }) {
+  const page = await open(await start().address);
   await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
   const seek = page.getByLabel('Moment of the run');
   const cycle = (n) => until(page, `cycle ${n}`, (wanted) => Number(document.querySelector('[aria-label="Moment of the run"]')?.value) >= wanted, n);
@@ -81,7 +76,6 @@ await inBrowser(sources, async ({ context, start, until }) => {
     const png = await file('png'); // its width and height are in its head
     const [width, height] = [png.readUInt32BE(16), png.readUInt32BE(20)];
     assert.ok(Math.max(width, height) > 1.5 * Math.min(width, height), `${width} x ${height}`);
-    if (screenshot) writeFileSync(`${screenshot}.both.png`, png);
   };
   const show = (tab) => page.locator('.dv-tab', { hasText: tab }).filter({ hasText: new RegExp(`^${tab}$`) }).click();
   for (const [tab, plot] of [['Bug/Motor', '[aria-label="Space plot of Bug/Motor"] '], ['Bug/Motor raster', '[aria-label="Raster plot of Bug/Motor"] ']]) {
@@ -107,14 +101,13 @@ await inBrowser(sources, async ({ context, start, until }) => {
     }, plot);
   }
   const both = await robots();
-  if (screenshot) await page.screenshot({ path: screenshot });
+  await picture(page, 'compare');
   await page.getByRole('button', { name: 'End comparison' }).click();
   await page.getByRole('button', { name: 'Compare from here' }).waitFor();
   await page.locator('.dv-tab', { hasText: 'over time' }).click();
   await until(page, 'one value', () => ![...document.querySelectorAll('.key .number')].some((n) => n.textContent.includes('/')));
   assert.equal(await page.getByLabel('Comparison').count(), 0);
-  await page.waitForTimeout(300);
-  assert.ok(both > (await robots()), 'the pale robot and its trail are gone');
+  await eventually('the pale robot and its trail are gone', async () => (await robots()) < both);
 
   step('an edit of the structure ends a comparison and the past, and says so');
   await page.getByRole('button', { name: 'Compare from here' }).click();
@@ -125,5 +118,4 @@ await inBrowser(sources, async ({ context, start, until }) => {
   await page.getByText('The run goes on in the edited system: it cannot go back to before this edit and the comparison has ended.').waitFor();
   await page.getByRole('button', { name: 'Compare from here' }).waitFor();
   assert.ok((await seek.getAttribute('min')) === (await seek.inputValue()));
-  console.log('all fine');
-});
+}

@@ -1,30 +1,25 @@
-// Panels are moved, stacked, floated, resized and closed with the keyboard alone, in Chromium against the real program: node dock_test.mjs FORAGE SOURCES [PICTURES]
+// Panels are moved, stacked, floated, resized and closed with the keyboard alone, in Chromium against the real program.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { join, resolve } from 'node:path';
-import { inBrowser } from './support.mjs';
+import { join } from 'node:path';
+import { answered, find, picture, sent, until } from './support.mjs';
 
-const [forage, sources, pictures] = process.argv.slice(2).map((p) => resolve(p));
-const step = (text) => console.log(text);
-
-await inBrowser(sources, async ({ folder, context, start, until }) => {
-  const faults = [];
-  const page = await context.newPage();
-  page.on('pageerror', (e) => faults.push(e.message));
-  page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
-  await page.setViewportSize({ width: 1600, height: 1000 });
-  await page.goto(await start(forage).address);
+export default async function ({ folder, start, open, faults, step }) {
+  const page = await open(await start().address, { width: 1600, height: 1000 });
   await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
   const press = async (...keys) => { for (const k of keys) await page.keyboard.press(k); };
-  const picture = async (name) => pictures && page.screenshot({ path: join(pictures, `${name}.png`) });
 
   /** The stacks that are seen: their tabs, in order, and their places. */
-  const stacks = () => page.evaluate(async () => {
-    // Floating windows are laid out with the next picture.
-    for (let i = 0; i < 2; i++) await new Promise(requestAnimationFrame);
-    return [...document.querySelectorAll('.dv-groupview')].filter((g) => g.getClientRects().length && g.offsetWidth && g.offsetHeight).map((g) => {
+  const stacks = () => laidOut().then(() => page.evaluate(() => [...document.querySelectorAll('.dv-groupview')].filter((g) => g.getClientRects().length && g.offsetWidth && g.offsetHeight).map((g) => {
     const { x, y, width, height } = g.getBoundingClientRect();
     return { tabs: [...g.querySelectorAll('.dv-tab')].map((t) => t.textContent.trim()).join(', '), x: Math.round(x), y: Math.round(y), right: Math.round(x + width), bottom: Math.round(y + height), width: Math.round(width), height: Math.round(height), floats: !!g.closest('.dv-resize-container') };
+  })));
+  // What is in a floating window is laid out with one of the next pictures.
+  const laidOut = () => until(page, 'the floating windows are laid out', async () => {
+    for (let i = 0; i < 2; i++) await new Promise(requestAnimationFrame);
+    return [...document.querySelectorAll('.dv-resize-container')].every((w) => {
+      const window = w.getBoundingClientRect(), inside = [...w.querySelectorAll('.dv-groupview')].map((g) => g.getBoundingClientRect());
+      return ['right', 'bottom'].every((side) => Math.abs(Math.max(...inside.map((r) => r[side])) - window[side]) < 3);
     });
   });
   const stack = async (tab) => {
@@ -63,11 +58,6 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
     for (const label of labels) await choose(label);
     await settled('the menu is closed', () => !document.querySelector('[role=menu]'));
   };
-  const find = async (text) => {
-    await press('Control+k');
-    await page.keyboard.type(text);
-    await press('Enter');
-  };
 
   step('F6 leads from part to part, and back with Shift');
   await press('F6');
@@ -94,7 +84,8 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   step('keys on a tab do not run the system');
   await go('Bug/Motor');
   await press(' ');
-  await page.waitForTimeout(500); // the server says ten times a second whether it runs
+  await answered(page);
+  assert.equal(await sent(page, 'run'), 0);
   assert.equal(await page.getByRole('button', { name: 'Run', exact: true }).count(), 1);
 
   step('a panel becomes a tab of another stack, goes before the other tab, and is split off again');
@@ -119,7 +110,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await focused('Diagram');
   const beside = [await stack('Diagram'), await stack('Arena')];
   assert.ok(beside[0].right <= beside[1].x + 4 && beside[0].y === beside[1].y && beside[0].height === beside[1].height, 'the diagram is left of the arena');
-  await picture('split');
+  await picture(page, 'split');
 
   step('a panel that stands alone goes past its neighbour, and then to the edge of all');
   await press('Control+Shift+ArrowRight');
@@ -165,7 +156,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await focused('Bug/Light');
   const moved = await stack('Bug/Light');
   assert.deepEqual([moved.x, moved.y, moved.width, moved.height], [loose.x - 80, loose.y - 40, loose.width + 40, loose.height + 40]);
-  await picture('float');
+  await picture(page, 'float');
 
   step('all of it is there after the page is opened again');
   const arrangement = async () => JSON.stringify((await stacks()).sort((a, b) => (a.tabs < b.tabs ? -1 : 1)));
@@ -217,6 +208,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await focused('Arena');
   assert.equal(await arrangement(), home);
   await inMenu('Maximize');
+  await focused('Arena');
   await inMenu('Move right');
   await focused('Arena');
   assert.deepEqual(await order(), [columns[1], columns[0], ...columns.slice(2)], 'one that is alone goes past its hidden neighbour');
@@ -224,13 +216,13 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   assert.deepEqual(await order(), columns);
 
   step('Ctrl+K has the same actions, for the active panel');
-  await find('panel: float');
+  await find(page, 'panel: float');
   await focused('Arena');
   assert.equal((await stack('Arena')).floats, true);
-  await find('panel: dock');
+  await find(page, 'panel: dock');
   await focused('Arena');
   assert.deepEqual(await order(), columns);
-  await find('panel: next');
+  await find(page, 'panel: next');
   await until(page, 'another tab', () => document.activeElement.matches('.dv-tab') && document.activeElement.textContent.trim() !== 'Arena');
 
   step('the button of a stack opens the same menu; the right button, too');
@@ -243,7 +235,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await focused('Diagram');
   await page.locator('.dv-tab', { hasText: 'Arena' }).click({ button: 'right' });
   await page.getByRole('menuitem', { name: 'Close the other tabs' }).waitFor();
-  await picture('menu');
+  await picture(page, 'menu');
   await press('Escape');
 
   step('the other tabs are closed, and then a panel; the focus goes to one that is there');
@@ -270,21 +262,20 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await press('Enter');
   await page.getByText('The layout mine is kept beside the system.').first().waitFor();
   const first = readFileSync(file, 'utf8');
-  await find('panel: float');
-  await until(page, 'a floating window', () => document.querySelector('.dv-resize-container'));
+  await find(page, 'panel: float');
+  await until(page, 'a floating window, with the focus', () => document.querySelector('.dv-resize-container')?.contains(document.activeElement));
   await page.getByRole('button', { name: 'Layouts of the panels' }).press('Enter');
   await page.getByLabel('Name of the layout').focus();
   await press('Enter');
   await page.getByText('There is a layout mine already.').waitFor();
-  await picture('replace');
+  await picture(page, 'replace');
   assert.equal(readFileSync(file, 'utf8'), first);
   await press('Tab', 'Tab', 'Enter');
   await until(page, 'the menu is closed', () => !document.querySelector('.layouts .menu'));
   assert.match(readFileSync(file, 'utf8'), /floatingGroups/);
-  await find('panel: dock');
+  await find(page, 'panel: dock');
   await page.getByRole('button', { name: 'Layouts of the panels' }).press('Enter');
   await page.getByRole('button', { name: 'mine', exact: true }).press('Enter');
   await until(page, 'the layout with its floating window', () => document.querySelector('.dv-resize-container'));
   assert.deepEqual(faults, []);
-  console.log('all fine');
-});
+}

@@ -1,33 +1,19 @@
-// Editing a system in the diagram and the inspector, in Chromium against the real program: node edit_test.mjs FORAGE SOURCES
+// Editing a system in the diagram and the inspector, in Chromium against the real program.
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import { join, resolve } from 'node:path';
-import { inBrowser } from './support.mjs';
+import { join } from 'node:path';
+import { accessible, answeredTo, find, sent, until } from './support.mjs';
 
-const [forage, sources] = process.argv.slice(2).map((p) => resolve(p));
-const step = (text) => console.log(text);
-
-await inBrowser(sources, async ({ folder, context, start, until }) => {
+export default async function ({ folder, context, start, open, faults, step }) {
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);
-  const faults = [];
   const file = join(folder, 'systems/reactive_foraging.iqr');
   const original = readFileSync(file, 'utf8');
-  const studio = start(forage, ['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
-  const page = await context.newPage();
-  page.on('pageerror', (e) => faults.push(e.message));
-  page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
-  await page.goto(await studio.address);
+  const page = await open(await start(['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']).address);
   const diagram = page.getByRole('group', { name: 'Diagram' });
   const canvas = diagram.getByRole('application', { name: 'Canvas' });
   const inspector = page.getByRole('region', { name: 'Inspector' });
   const node = (id) => diagram.locator(`.svelte-flow__node[data-id="${id}"]`);
   const heading = (name) => inspector.getByRole('heading', { name, exact: true }).waitFor();
-  const palette = async (text) => {
-    await page.keyboard.press('Control+k');
-    await page.keyboard.type(text);
-    await page.keyboard.press('Enter');
-  };
   const place = async (id) => (await node(id).evaluate((e) => e.style.transform)).match(/-?[\d.]+/g).map(Number);
   const moved = (id, from) => until(page, `${id} moves`, ([i, was]) => document.querySelector(`.svelte-flow__node[data-id="${i}"]`)?.style.transform !== was, [id, `translate(${from[0]}px, ${from[1]}px)`]);
   const undone = (id, to) => until(page, `${id} is back`, ([i, was]) => document.querySelector(`.svelte-flow__node[data-id="${i}"]`)?.style.transform === was, [id, `translate(${to[0]}px, ${to[1]}px)`]);
@@ -49,7 +35,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
 
   step('a box is dragged, undone, redone, and moved by the arrows; only its place in the file changes');
   await page.getByRole('group', { name: 'Arena' }).waitFor();
-  await palette('layout: build');
+  await find(page, 'layout: build');
   await diagram.getByRole('button', { name: 'Selection', exact: true }).click();
   await count(6);
   const ur = await place('selection.ur');
@@ -63,10 +49,11 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.keyboard.press('Control+Shift+z');
   await moved('selection.ur', ur);
   const there = await place('selection.ur');
+  const edits = await sent(page, 'edit');
   await page.keyboard.press('Shift+ArrowDown');
   await until(page, 'the arrow', ([y]) => Number(document.querySelector('.svelte-flow__node[data-id="selection.ur"]').style.transform.match(/-?[\d.]+/g)[1]) > y, [there[1]]);
   await page.getByText('UR', { exact: true }).first().waitFor();
-  await page.waitForTimeout(600); // the arrows are sent together, shortly after the last one
+  await answeredTo(page, 'edit', edits); // the arrows are sent together, shortly after the last one
   await page.keyboard.press('Control+s');
   await dirty(false);
   const saved = readFileSync(file, 'utf8').split('\n');
@@ -133,10 +120,11 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.keyboard.press('Tab');
   assert.deepEqual([await looks('selection.ur'), await looks('selection.explore')], [['dashed', 'none'], ['none', 'solid']]);
   const rests = await place('selection.explore'), goes = await place('selection.ur');
+  const earlier = await sent(page, 'edit');
   await page.keyboard.press('ArrowLeft');
   await moved('selection.ur', goes);
   assert.deepEqual(await place('selection.explore'), rests);
-  await page.waitForTimeout(600);
+  await answeredTo(page, 'edit', earlier);
   await page.keyboard.press('Control+z');
   await undone('selection.ur', goes);
   await page.keyboard.press('e');
@@ -194,7 +182,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await xml.press('Control+Enter');
   await page.getByRole('button', { name: /problem/ }).click();
   const problems = page.getByRole('group', { name: 'Problems' });
-  await palette('US to Approach');
+  await find(page, 'US to Approach');
   await heading('US to Approach');
   await problems.getByRole('button', { name: /neuronLinearTreshold/ }).first().click();
   await heading('Selection/Approach');
@@ -203,7 +191,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.getByRole('button', { name: /problem/ }).waitFor({ state: 'detached' });
 
   step('the changes since the last save; another program writes the file');
-  await palette('changes since');
+  await find(page, 'changes since');
   await page.getByRole('group', { name: 'Changes since the last save' }).getByText(/1\.25/).first().waitFor();
   writeFileSync(file, readFileSync(file, 'utf8').replace('name="Const Speed"', 'name="Drive"'));
   await page.getByText('reactive_foraging.iqr was changed by another program.').waitFor();
@@ -212,26 +200,20 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.getByRole('group', { name: 'Changes since the last save' }).getByText(/1\.25/).first().waitFor();
 
   step('axe finds no serious fault of accessibility');
-  await page.evaluate(readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8'));
-  const serious = () => page.evaluate(async () => (await window.axe.run({ exclude: ['.dv-tab'] }, { resultTypes: ['violations'] })).violations.filter((v) => ['serious', 'critical'].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 160)).join(' | ')}`));
-  await palette('US to Approach');
+  await find(page, 'US to Approach');
   await inspector.getByLabel('Pattern', { exact: true }).waitFor();
-  assert.deepEqual(await serious(), []);
+  await accessible(page);
   await page.getByRole('button', { name: /Reactive foraging/ }).first().click();
   await page.getByRole('menuitem', { name: 'Save as' }).waitFor();
-  assert.deepEqual(await serious(), []);
+  await accessible(page);
   await page.getByRole('menuitem', { name: 'Save as' }).click();
   await page.getByRole('dialog', { name: 'Save as' }).waitFor();
-  assert.deepEqual(await serious(), []);
+  await accessible(page);
 
   step('in a small window, Enter leads into the form of a box, and Escape back to it');
-  const small = await context.newPage();
-  await small.setViewportSize({ width: 420, height: 800 });
-  await small.goto(new URL(await studio.address).origin);
+  const small = await open(new URL(page.url()).origin, { width: 420, height: 800 });
   await small.locator('.dv-tab').first().waitFor();
-  await small.keyboard.press('Control+k');
-  await small.keyboard.type('diagram');
-  await small.keyboard.press('Enter');
+  await find(small, 'diagram');
   await small.getByRole('group', { name: 'Processes' }).getByRole('button', { name: 'System', exact: true }).click();
   await small.locator('.svelte-flow__node .process').first().waitFor();
   await small.locator('.svelte-flow__node').first().focus();
@@ -254,5 +236,4 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await small.close();
 
   assert.deepEqual(faults, []);
-  console.log('all fine');
-});
+}

@@ -1,33 +1,17 @@
-// Forms and the diagram beside each other, in Chromium against the real program: node forms_test.mjs FORAGE SOURCES
+// Forms and the diagram beside each other, in Chromium against the real program.
 import assert from 'node:assert/strict';
 import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { join, resolve } from 'node:path';
-import { inBrowser } from './support.mjs';
+import { join } from 'node:path';
+import { find, until } from './support.mjs';
 
-const [forage, sources] = process.argv.slice(2).map((p) => resolve(p));
-const step = (text) => console.log(text);
-
-await inBrowser(sources, async ({ folder, context, start, until }) => {
+export default async function ({ folder, context, start, open, faults, step }) {
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);
-  const faults = [];
-  const listen = (page) => {
-    page.on('pageerror', (e) => faults.push(e.message));
-    page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
-  };
   const begin = async (args) => {
-    const page = await context.newPage();
-    listen(page);
-    await page.goto(await start(forage, args).address);
+    const page = await open(await start(args).address);
     await page.getByRole('group', { name: 'Arena' }).waitFor();
     return page;
   };
-  const paletteOf = (page) => async (text) => {
-    await page.keyboard.press('Control+k');
-    await page.keyboard.type(text);
-    await page.keyboard.press('Enter');
-  };
   const page = await begin(['systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
-  const palette = paletteOf(page);
   const diagram = page.getByRole('group', { name: 'Diagram' }), inspector = page.getByRole('region', { name: 'Inspector' }), tree = page.getByRole('navigation');
   const canvas = diagram.getByRole('application', { name: 'Canvas' });
   const node = (id) => diagram.locator(`.svelte-flow__node[data-id="${id}"]`);
@@ -41,7 +25,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
     await file.saveAs(path);
     return path;
   };
-  await palette('layout: build');
+  await find(page, 'layout: build');
 
   step('a page of the diagram is selected with its process, and what is chosen elsewhere opens its page');
   await diagram.getByRole('button', { name: 'Adaptive', exact: true }).click();
@@ -51,7 +35,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await node('bug.motor').locator('.selected').waitFor();
   assert.match(await node('bug.motor').locator('.item').getAttribute('title'), /Bug\/Motor.*\n.*9 × 9 cells\nto _motor of the module/);
   await node('bug.light').getByRole('img', { name: /from the module/ }).waitFor();
-  await palette('CR to Threshold CR');
+  await find(page, 'CR to Threshold CR');
   await pageIs('Adaptive');
   await row('system').click();
   await pageIs('the system');
@@ -73,7 +57,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.mouse.move(middle.x + middle.width / 2 + 1500, middle.y + 40, { steps: 4 });
   await page.mouse.up({ button: 'middle' });
   await inView(false);
-  await palette('Bug/Light');
+  await find(page, 'Bug/Light');
   await inView(true);
 
   step('an empty name, and numbers out of their range, are refused at the field');
@@ -110,11 +94,11 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.keyboard.press('Shift+Enter');
   await heading('Bug/Motor');
   assert.equal(await inspector.getByLabel('Note', { exact: true }).inputValue(), '');
-  await palette('Bug/Light');
+  await find(page, 'Bug/Light');
   await until(page, 'the note', () => document.querySelector('aside textarea')?.value === 'Light only');
 
   step('the end of a line is chosen in its form');
-  await palette('CR to Threshold CR');
+  await find(page, 'CR to Threshold CR');
   const leaves = inspector.getByLabel('Leaves at');
   await leaves.selectOption({ label: 'Bottom 2' });
   await until(page, 'the line', () => {
@@ -123,7 +107,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   });
 
   step('the page is saved as a picture, printed alone, and has a map if one likes');
-  const svg = readFileSync(await download(() => palette('Save the diagram as SVG')), 'utf8');
+  const svg = readFileSync(await download(() => find(page, 'Save the diagram as SVG')), 'utf8');
   assert.ok(svg.startsWith('<svg') && svg.includes('Threshold CR') && svg.includes('url(#inhibitory)'));
   await diagram.getByRole('button', { name: 'Save or print the page' }).click();
   const png = readFileSync(await download(() => page.getByRole('menuitem', { name: 'Save the page as PNG' }).click()));
@@ -179,7 +163,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.keyboard.press('Escape');
 
   step('tuples come from a file');
-  await palette('CR to Threshold CR');
+  await find(page, 'CR to Threshold CR');
   await inspector.getByLabel('Pattern', { exact: true }).selectOption('tuples');
   await inspector.getByText('From text or a file').click();
   writeFileSync(join(folder, 'tuples.txt'), '1,1|2,1:3,1\n4,1:5,1\n');
@@ -196,7 +180,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   const label = (await inspector.locator('[data-port="_motor"] label').innerText()).replace(/\s*\*\s*$/, '').trim();
   await port.selectOption('');
   await page.getByRole('button', { name: 'runs an older state' }).click();
-  await palette('Adaptive/UR');
+  await find(page, 'Adaptive/UR');
   await page.getByRole('group', { name: 'Problems' }).getByRole('button', { name: `${label} of the module of Bug has no group` }).click();
   await until(page, 'the field of the port', () => document.activeElement?.closest('[data-port="_motor"]') != null);
   await page.keyboard.press('Escape');
@@ -205,7 +189,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.getByRole('button', { name: 'runs an older state' }).waitFor({ state: 'detached' });
 
   step('Ctrl+K has the actions of the menus; a backup is written beside the file');
-  await palette('Save a backup');
+  await find(page, 'Save a backup');
   await page.getByText(/^The backup is dac_foraging\.iqr,/).waitFor();
   assert.equal(readdirSync(join(folder, 'systems')).filter((f) => f.startsWith('dac_foraging.iqr,')).length, 1);
   await page.keyboard.press('Control+k');
@@ -218,13 +202,13 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   step('a linked process has a form that only reads');
   const process = join(folder, 'Part.iqrProcess');
   await diagram.getByRole('button', { name: 'Selection', exact: true }).click();
-  await palette('Export the process Selection');
+  await find(page, 'Export the process Selection');
   const dialog = page.getByRole('dialog', { name: 'Export the process' });
   await dialog.getByLabel('Name').fill(process);
   await dialog.getByRole('button', { name: 'Export' }).click();
   await dialog.waitFor({ state: 'detached' });
   writeFileSync(process, readFileSync(process, 'utf8').replaceAll('selection', 'part').replace('name="Selection"', 'name="Part"')); // ids of its own
-  await palette('Link a process');
+  await find(page, 'Link a process');
   const link = page.getByRole('dialog', { name: 'Link a process' });
   await link.getByLabel('Name').fill(process);
   await link.getByRole('button', { name: 'Link', exact: true }).click();
@@ -237,14 +221,11 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await inspector.getByText(/is changed there/).waitFor();
 
   step('in a small window, the group that is selected already shows its form again');
-  const small = await context.newPage();
-  listen(small);
-  await small.setViewportSize({ width: 420, height: 800 });
-  await small.goto(new URL(page.url()).origin);
+  const small = await open(new URL(page.url()).origin, { width: 420, height: 800 });
   await small.locator('.dv-tab').first().waitFor();
   const drawer = small.getByRole('region', { name: 'Inspector' });
   for (let i = 0; i < 2; i++) {
-    await paletteOf(small)('Bug/Light');
+    await find(small, 'Bug/Light');
     await drawer.waitFor();
     await small.keyboard.press('Escape');
     await drawer.waitFor({ state: 'detached' });
@@ -253,7 +234,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
 
   step('items of a second system show their parameters, which act on the run');
   const teams = await begin(['systems/team_a.iqr', 'systems/team_b.iqr', '--world', 'systems/worlds/team_arena.world']);
-  await paletteOf(teams)('B_1/Motor');
+  await find(teams, 'B_1/Motor');
   const form = teams.getByRole('region', { name: 'Inspector' });
   await form.getByText(/only the first system can be edited/).waitFor();
   assert.ok(await form.getByLabel('Name', { exact: true }).isDisabled());
@@ -264,5 +245,4 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await teams.close();
 
   assert.deepEqual(faults, []);
-  console.log('all fine');
-});
+}

@@ -1,7 +1,7 @@
 // How long a large system takes to open, and how smoothly it is dragged, beside an almost empty one: node large.mjs FORAGE SOURCES
 import { writeFileSync } from 'node:fs';
 import { join, resolve } from 'node:path';
-import { inBrowser } from './support.mjs';
+import { inBrowser, launch } from './support.mjs';
 
 const [forage, sources] = process.argv.slice(2).map((p) => resolve(p));
 
@@ -23,10 +23,11 @@ function write(file, groups, connections, processes = 1) {
   writeFileSync(file, `${out}</System>\n`);
 }
 
-await inBrowser(sources, async ({ folder, context, start }) => {
+const browser = await launch();
+await inBrowser(browser, forage, sources, async ({ folder, context, start }) => {
   const measure = async (name, groups, connections, processes = 1) => {
     write(join(folder, `${name}.iqr`), groups, connections, processes);
-    const studio = start(forage, [`${name}.iqr`]);
+    const studio = start([`${name}.iqr`]);
     const page = await context.newPage();
     const address = await studio.address;
     const began = performance.now();
@@ -70,3 +71,4 @@ await inBrowser(sources, async ({ folder, context, start }) => {
   await measure('many', 600, 600, 300);
   console.log(`median frame, large to empty: ${(large / empty).toFixed(2)}`);
 });
+await browser.close();

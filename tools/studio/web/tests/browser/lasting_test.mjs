@@ -1,18 +1,15 @@
-// What lasts in Chromium against the real program: node lasting_test.mjs FORAGE SOURCES [SCREENSHOT]
+// What lasts in Chromium against the real program.
 import assert from 'node:assert/strict';
-import { readFileSync } from 'node:fs';
-import { join, resolve } from 'node:path';
-import { inBrowser } from './support.mjs';
+import { readdirSync, readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { eventually, find, picture, until } from './support.mjs';
 
-const [forage, sources, screenshot] = process.argv.slice(2).map((p) => resolve(p));
-const step = (text) => console.log(text);
 const cycle = (page) => page.getByLabel('Moment of the run').inputValue().then(Number);
 
-await inBrowser(sources, async ({ folder, context, start, until }) => {
+export default async function ({ folder, start, open, step }) {
   step('a studio that is killed: the next one offers to go on, with the panels and the comparison as they were');
-  const first = start(forage);
-  const page = await context.newPage();
-  await page.goto(await first.address);
+  const first = start();
+  const page = await open(await first.address);
   await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
   await page.getByRole('navigation').getByText('CS', { exact: true }).first().dblclick();
   await page.getByRole('group', { name: /^Space plot of .*\/CS$/ }).waitFor();
@@ -21,7 +18,9 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.getByRole('button', { name: 'Compare from here' }).click();
   await page.getByRole('button', { name: 'End comparison' }).waitFor();
   await page.locator('[aria-label^="Space plot of"] canvas.reference').first().waitFor();
-  await page.waitForTimeout(2500); // it is kept one second after the last change
+  // The panels are kept one second after the last change.
+  const kept = () => readdirSync(join(folder, 'state'), { recursive: true, withFileTypes: true }).filter((f) => f.isFile()).some((f) => ['"compare":{"changed":{},"from":7}', '"Adaptive/CS"'].every((part) => readFileSync(join(f.parentPath, f.name)).includes(part)));
+  await eventually('the session is kept', kept);
   first.child.removeAllListeners('exit');
   first.child.kill('SIGKILL');
 
@@ -29,9 +28,8 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   const gone = page.getByRole('alert').filter({ hasText: 'Forage has ended or cannot be reached' });
   await gone.getByText('forage studio systems/dac_foraging.iqr --world systems/worlds/basic_arena.world --recover', { exact: true }).waitFor();
 
-  const second = start(forage, ['systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world', '--port', new URL(page.url()).port]);
-  const again = await context.newPage();
-  await again.goto(await second.address);
+  const second = start(['systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world', '--port', new URL(page.url()).port]);
+  const again = await open(await second.address);
   await again.getByText("This system's last session was not closed.").waitFor();
   assert.equal(await cycle(again), 0);
   await again.getByRole('button', { name: 'Go on with it' }).click();
@@ -51,13 +49,11 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   const opening = again.getByRole('dialog', { name: 'Open a system' });
   await opening.getByText('a backup', { exact: true }).click();
   await opening.getByRole('button', { name: /^(today|yesterday), \d\d:\d\d:\d\d$/ }).click();
-  if (screenshot) await again.screenshot({ path: `${screenshot}.backups.png` });
+  await picture(again, 'backups');
   await opening.getByRole('button', { name: 'Open', exact: true }).click();
   const name = again.getByRole('button', { name: /^DAC foraging backup/ });
   await name.waitFor();
-  await again.keyboard.press('Control+k');
-  await again.keyboard.type('Learning/CS');
-  await again.keyboard.press('Enter');
+  await find(again, 'Learning/CS');
   const field = again.getByRole('region', { name: 'Inspector' }).getByLabel('Name', { exact: true });
   await field.fill('Changed');
   await field.press('Enter');
@@ -73,5 +69,4 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await until(again, 'the file itself', () => document.title.includes('dac_foraging.iqr)') && !document.title.startsWith('●'));
   await name.waitFor({ state: 'detached' });
   assert.match(readFileSync(file, 'utf8'), /name="Changed"/);
-  console.log('all fine');
-});
+}

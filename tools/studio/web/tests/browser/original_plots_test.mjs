@@ -1,13 +1,10 @@
-// Plots of the original (.conf) in Chromium, and what a time plot and the data sampler show: node original_plots_test.mjs FORAGE SOURCES
+// Plots of the original (.conf) in Chromium, and what a time plot and the data sampler show.
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
-import { join, resolve } from 'node:path';
-import { inBrowser } from './support.mjs';
+import { join } from 'node:path';
+import { until } from './support.mjs';
 
-const [forage, sources] = process.argv.slice(2).map((p) => resolve(p));
-const step = (text) => console.log(text);
-
-await inBrowser(sources, async ({ folder, context, start, until }) => {
+export default async function ({ folder, start, open, step }) {
   const text = readFileSync(join(folder, 'systems/dac_foraging.iqr'), 'utf8');
   const id = (name) => (new RegExp(`<Group [^>]*name="${name}"[^>]*`).exec(text)?.[0] ?? '').match(/ id="([^"]+)"/)[1];
   const shown = (item, states) => `<StateVariableDisplay><StateVariableDisplays ID="1" itemID="${item}" indices=""><Average>true</Average><SelectedStates>${states}</SelectedStates></StateVariableDisplays></StateVariableDisplay>`;
@@ -19,8 +16,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
 <DataClient type="PlotTypeGroup" ID="d">${shown('gone', 'act;')}</DataClient>
 </iqrDataManagerConfiguration>
 `);
-  const page = await context.newPage();
-  await page.goto(await start(forage).address);
+  const page = await open(await start().address);
   await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
 
   step('a file .conf opens its plots, and says what it cannot');
@@ -51,5 +47,4 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
     for (let i = 0; i < data.length; i += 4) line += data[i] < 30 && Math.abs(data[i + 1] - 114) < 30 && Math.abs(data[i + 2] - 178) < 30 && data[i + 3] > 100;
     return line > 30;
   });
-  console.log('all fine');
-});
+}

@@ -1,25 +1,17 @@
-// Several pages of one session, in Chromium against the real program: node pages_test.mjs FORAGE SOURCES
+// Several pages of one session, in Chromium against the real program.
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
-import { join, resolve } from 'node:path';
-import { inBrowser } from './support.mjs';
+import { join } from 'node:path';
+import { answered, until } from './support.mjs';
 
-const [forage, sources] = process.argv.slice(2).map((p) => resolve(p));
-const step = (text) => console.log(text);
-
-await inBrowser(sources, async ({ folder, context, start, until }) => {
-  const faults = [];
-  const studio = start(forage, ['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
-  const address = await studio.address;
-  const open = async (url) => {
-    const page = await context.newPage();
-    page.on('pageerror', (e) => faults.push(e.message));
-    page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
-    await page.goto(url);
+export default async function ({ folder, start, open, faults, step }) {
+  const address = await start(['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']).address;
+  const show = async (url) => {
+    const page = await open(url);
     await page.getByRole('navigation').getByText('UR', { exact: true }).waitFor();
     return page;
   };
-  const page = await open(address), second = await open(new URL(address).origin);
+  const page = await show(address), second = await show(new URL(address).origin);
   const row = (p, name) => p.getByRole('navigation').getByText(name, { exact: true }).first();
   const plot = (p, name) => p.getByRole('group', { name: `Space plot of Selection/${name}` });
 
@@ -42,7 +34,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.keyboard.press('Enter');
   await row(second, 'Reflex').waitFor();
   await plot(second, 'UR').waitFor({ state: 'detached' });
-  await second.waitForTimeout(500);
+  await answered(second);
   assert.equal(await second.getByText('Undo brings back').count(), 0);
   await row(second, 'Reflex').dblclick();
   await plot(second, 'Reflex').waitFor();
@@ -50,5 +42,4 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await until(second, 'the first cycle', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '1');
 
   assert.deepEqual(faults, []);
-  console.log('all fine');
-});
+}

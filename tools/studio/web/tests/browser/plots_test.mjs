@@ -1,23 +1,16 @@
-// Plots: choosing cells and states, scales, files, and following the model; in Chromium: node plots_test.mjs FORAGE SOURCES [SCREENSHOT]
+// Plots: choosing cells and states, scales, files, and following the model; in Chromium.
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
-import { join, resolve } from 'node:path';
-import { inBrowser } from './support.mjs';
+import { join } from 'node:path';
+import { find, picture, sent, until } from './support.mjs';
 
-const [forage, sources, screenshot] = process.argv.slice(2).map((p) => resolve(p));
-const step = (text) => console.log(text);
-
-await inBrowser(sources, async ({ folder, context, start, until }) => {
-  const page = await context.newPage();
-  const faults = [];
-  page.on('pageerror', (e) => faults.push(e.message));
-  await page.goto(await start(forage).address);
+export default async function ({ folder, start, open, faults, step }) {
+  const page = await open(await start().address);
   const inspector = page.getByRole('region', { name: 'Inspector' });
   const tree = page.getByRole('navigation');
   const plot = (name) => page.getByRole('group', { name, exact: true });
   const show = (tab) => page.locator('.dv-tab', { hasText: tab }).filter({ hasText: new RegExp(`^${tab.replace(/[()]/g, '\\$&')}$`) }).click();
   const cycle = (n) => until(page, `cycle ${n}`, (wanted) => Number(document.querySelector('[aria-label="Moment of the run"]')?.value) >= wanted, n);
-  const shot = async (name) => screenshot && page.screenshot({ path: `${screenshot}.${name}.png` });
   const keysOf = () => page.locator('.key .name').allInnerTexts();
 
   step('space: a drag selects cells, Ctrl adds, and their mean is said');
@@ -45,7 +38,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await drag([1, 1], [2, 1]);
   await page.keyboard.up('Control');
   await chosen.getByText('8 cells, mean').waitFor();
-  await shot('selected');
+  await picture(page, 'selected');
   await page.keyboard.press('Escape');
   await chosen.waitFor({ state: 'detached' });
 
@@ -63,8 +56,9 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   };
   let sum = await chooseThree();
   for (let tries = 0; sum === 0 && tries < 60; tries++) {
+    const before = await sent(page, 'ack');
     await page.keyboard.press('.'); // it may be at rest in this cycle
-    await page.waitForTimeout(100);
+    await until(page, 'what the next cycle shows', (n) => window.sent.filter((s) => s === 'ack').length > n, before);
     sum = await chooseThree();
   }
   await chosen.getByText('3 cells, mean').waitFor();
@@ -118,9 +112,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await chosen.getByRole('button', { name: 'Cells', exact: true }).dragTo(dropped.locator('.u-over'));
   await dropped.getByText('Bug/Motor:act(3,4)').waitFor();
   assert.deepEqual(await dropped.locator('.key .name').allInnerTexts(), ['mean(Bug/Motor:act(1..2,1..2))', 'Bug/Motor:act(3,3)', 'Bug/Motor:act(3,4)']);
-  await page.keyboard.press('Control+k');
-  await page.keyboard.type('Record to a file');
-  await page.keyboard.press('Enter');
+  await find(page, 'Record to a file');
   const sampler = page.locator('.panel', { hasText: 'If it is there' });
   await show('Bug/Light');
   const light = plot('Space plot of Bug/Light');
@@ -144,7 +136,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await editor.getByLabel('Cells').fill('1..3,1');
   await editor.getByLabel('Cells').press('Tab');
   assert.equal(await editor.getByLabel('Source').inputValue(), 'mean(Bug/Light:excIn(1..3,1))');
-  await shot('editor');
+  await picture(page, 'editor');
   await editor.getByRole('button', { name: 'Add' }).click();
   await time.getByRole('button', { name: 'Change mean(Bug/Light:excIn(1..3,1))' }).waitFor();
   await time.getByRole('button', { name: 'Add', exact: true }).click();
@@ -186,7 +178,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.keyboard.press('Shift+ArrowLeft');
   assert.ok(parseFloat(await moment()) < parseFloat(before));
   assert.match(await time.getByRole('status').innerText(), /^[\d.]+ s: mean\(Bug\/Motor:act\(4\.\.6,1\.\.2\)\) [\d.]+, /);
-  await shot('zoom');
+  await picture(page, 'zoom');
   await page.keyboard.press('Escape');
   await time.getByRole('button', { name: 'Whole' }).waitFor({ state: 'detached' });
   await page.keyboard.press('End');
@@ -228,7 +220,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await raster.getByLabel('Colour scale').selectOption('manual');
   await raster.getByLabel('Highest value of the scale').fill('7');
   await raster.getByLabel('Highest value of the scale').press('Enter');
-  await shot('raster');
+  await picture(page, 'raster');
 
   step('camera: the colour under the pointer, and files');
   await page.locator('.dv-tab', { hasText: /^Arena$/ }).click();
@@ -246,7 +238,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await tree.getByText('Light', { exact: true }).click();
   await until(page, 'marked titles', () => [...document.querySelectorAll('.dv-tab:has(.selected)')].some((t) => t.textContent.trim() === 'Bug/Light'));
   assert.ok((await marked()).includes('Over time') && !(await marked()).includes('Bug/Motor'), (await marked()).join());
-  await shot('marked');
+  await picture(page, 'marked');
   await inspector.getByRole('button', { name: 'Drive' }).click();
   await plot('Drive Bug/Light').waitFor();
   const count = (await tabs()).length;
@@ -297,7 +289,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
     <Group id="a" name="A"><Topology><TopologySparse><Point x="2" y="3"/><Point x="3" y="1"/><Point x="1" y="1"/></TopologySparse></Topology><Neuron name="neuronRandomSpike"/></Group>
     <Group id="b" name="B"><Topology><TopologyRect hcount="3" vcount="2" cylinderHor="false" cylinderVert="false"/></Topology><Neuron name="neuronLinearThreshold"/></Group>
   </Process>${kinds.map(([name, synapse]) => `<Connection id="${name}" name="${name}" source="a" target="b" type="excitatory"><Pattern><PatternForeach/></Pattern>${synapse}</Connection>`).join('')}</System>`);
-  await page.goto(await start(forage, ['small.iqr']).address);
+  await page.goto(await start(['small.iqr']).address);
   await tree.getByText('A', { exact: true }).click();
   await inspector.getByRole('button', { name: 'Space' }).click();
   const sparse = plot('Space plot of P/A');
@@ -308,7 +300,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
     await page.keyboard.press(key);
     await sparse.getByText(text).waitFor();
   }
-  await shot('sparse');
+  await picture(page, 'sparse');
   await tree.getByRole('button', { name: 'Connections', exact: true }).last().click();
   await tree.getByText('constant', { exact: true }).click();
   const plots = () => inspector.locator('.open button').allInnerTexts();
@@ -337,7 +329,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   assert.match(await saved(wiring, 'csv'), /^source,target,strength,distance,delay,weight\n1,4,/);
   assert.match(await saved(wiring, 'svg'), /<rect .*>P\/A<.*>P\/B</s);
   png(await saved(wiring, 'png'));
-  await shot('wiring');
+  await picture(page, 'wiring');
 
   step('weights: the value of a synapse, its course, the scale, and files');
   await inspector.getByRole('button', { name: 'Weight' }).click();
@@ -350,11 +342,10 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   assert.match(await saved(weights, 'csv'), /^source 1,source 2,source 3\n([\d.e-]+,){2}/);
   await weights.getByLabel('Colour scale').selectOption('manual');
   await weights.getByLabel('State').selectOption({ label: 'Synaptic potential' });
-  await shot('weights');
+  await picture(page, 'weights');
   await weights.getByRole('button', { name: 'This synapse over time' }).click();
   await page.getByRole('button', { name: /^Change learns:\w+\(2,6\)$/ }).waitFor();
   await page.getByRole('button', { name: 'Pause', exact: true }).click();
 
   assert.deepEqual(faults, []);
-  console.log('all fine');
-});
+}

@@ -1,19 +1,25 @@
-// A studio with a page in Chromium, for tests. Exit code 77: skipped, as there is no browser.
+// A studio with pages in Chromium, for tests and pictures. Exit code 77: skipped, as there is no browser.
 import { spawn } from 'node:child_process';
-import { cpSync, existsSync, mkdtempSync, rmSync } from 'node:fs';
+import { cpSync, existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { join } from 'node:path';
 import assert from 'node:assert/strict';
 
 // What waits is patient: tests run on machines that do much else.
-const patience = 30000;
+const patience = 60000;
+const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
 
-const browserPath = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((p) => existsSync(p));
-if (!browserPath) {
-  console.log('SKIPPED: there is no Chromium');
-  process.exit(77);
+/** Chromium, for all topics. WebGL is drawn without a graphics card, which would take thirty times as long for all else. */
+export async function launch() {
+  const executablePath = ['/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'].find((p) => existsSync(p));
+  if (!executablePath) {
+    console.log('SKIPPED: there is no Chromium');
+    process.exit(77);
+  }
+  const { chromium } = await import('playwright-core');
+  return chromium.launch({ executablePath, args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-gpu-compositing', '--disable-background-networking', '--disable-dev-shm-usage'] });
 }
-const { chromium } = await import('playwright-core');
 
 /** Starts `forage studio` in `folder`, which also has its state. The address is a promise. */
 export function startStudio(forage, folder, args = ['systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']) {
@@ -32,24 +38,97 @@ export function startStudio(forage, folder, args = ['systems/dac_foraging.iqr', 
   return { child, address };
 }
 
-/** Calls `test` with a folder that has the systems, the context of a browser (with further options) and what waits for a condition in a page. */
-export async function inBrowser(sources, test, options = ['--disable-gpu']) {
+/** Whether a condition holds in the page, sooner or later. */
+export const until = (page, what, condition, argument) => page.waitForFunction(condition, argument, { timeout: patience }).catch((e) => assert.fail(`waited in vain: ${what} (${e.message})`));
+
+/** Whether a condition outside of the page holds, sooner or later. */
+export async function eventually(what, condition) {
+  for (const end = performance.now() + patience; !(await condition()); await new Promise((done) => setTimeout(done, 20))) assert.ok(performance.now() < end, `waited in vain: ${what}`);
+}
+
+/** Types into Ctrl+K, and takes the first that is found. */
+export async function find(page, text) {
+  await page.keyboard.press('Control+k');
+  await until(page, 'the field of Ctrl+K', () => document.activeElement?.matches('dialog[aria-label="Find"] input'));
+  await page.keyboard.insertText(text);
+  await page.keyboard.press('Enter');
+  await until(page, 'the keys are those of the page again', () => !document.activeElement?.closest('dialog[aria-label="Find"]'));
+}
+
+/** axe finds no serious fault of accessibility. Dockview's own tabs hold a close button, which axe calls nested. */
+export async function accessible(page, what) {
+  if (!(await page.evaluate(() => 'axe' in window))) await page.evaluate(axe);
+  const serious = await page.evaluate(async () => (await window.axe.run({ exclude: ['.dv-tab'] }, { resultTypes: ['violations'] })).violations.filter((v) => ['serious', 'critical'].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 200)).join(' | ')}`));
+  assert.deepEqual(serious, [], what);
+}
+
+/** Waits until the page has what the server says of all that it was sent: what came of it is not still under way. */
+export const answered = (page) => page.evaluate(() => new Promise((done) => {
+  const id = 1e9 + Math.random();
+  const listen = ({ data }) => {
+    if (typeof data !== 'string' || JSON.parse(data).id !== id) return;
+    window.socket.removeEventListener('message', listen);
+    setTimeout(done); // the page has drawn it
+  };
+  window.socket.addEventListener('message', listen);
+  window.socket.send(JSON.stringify({ id, command: 'settings' }));
+}));
+/** How often the page has sent a command. */
+export const sent = (page, command) => page.evaluate((c) => window.sent.filter((s) => s === c).length, command);
+/** Waits until the page has sent a command more often than `before`, and it was answered. */
+export async function answeredTo(page, command, before) {
+  await until(page, `the command ${command}`, ([c, n]) => window.sent.filter((s) => s === c).length > n, [command, before]);
+  await answered(page);
+}
+/** How many frames of numbers have arrived; in the page it is `frames_`. */
+export const frames = (page) => page.evaluate(() => window.frames_);
+// Each page counts what goes over its socket.
+function watchSocket() {
+  window.sent = [];
+  window.frames_ = 0;
+  window.WebSocket = class extends WebSocket {
+    constructor(...given) {
+      super(...given);
+      window.socket = this;
+      this.addEventListener('message', ({ data }) => (window.frames_ += typeof data !== 'string'));
+    }
+    send(data) {
+      window.sent.push(JSON.parse(data).command);
+      super.send(data);
+    }
+  };
+}
+
+/** Calls `test` with a folder of its own that has the systems, a fresh context of the browser, and what starts studios and opens their pages. */
+export async function inBrowser(browser, forage, sources, test) {
   const folder = mkdtempSync(join(tmpdir(), 'forage-page-'));
   cpSync(join(sources, 'systems'), join(folder, 'systems'), { recursive: true });
-  let browser;
-  const studios = [];
+  const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, colorScheme: 'light' });
+  context.setDefaultTimeout(patience);
+  await context.addInitScript(watchSocket);
+  const studios = [], faults = [];
+  context.on('page', (page) => {
+    page.on('pageerror', (e) => faults.push(e.message));
+    page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
+  });
+  const start = (args) => {
+    studios.push(startStudio(forage, folder, args));
+    return studios[studios.length - 1];
+  };
+  /** A page that shows the address; `size` is that of its window. */
+  const open = async (address, size) => {
+    const page = await context.newPage();
+    if (size) await page.setViewportSize(size);
+    await page.goto(address);
+    return page;
+  };
   try {
-    browser = await chromium.launch({ executablePath: browserPath, args: ['--no-sandbox', ...options, '--disable-background-networking', '--disable-dev-shm-usage'] });
-    const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, colorScheme: 'light' });
-    context.setDefaultTimeout(patience);
-    const start = (forage, args) => {
-      studios.push(startStudio(forage, folder, args));
-      return studios[studios.length - 1];
-    };
-    const until = (page, what, condition, argument) => page.waitForFunction(condition, argument, { timeout: patience, polling: 100 }).catch(() => assert.fail(`waited in vain: ${what}`));
-    await test({ folder, context, start, until });
+    await test({ forage, folder, context, faults, start, open });
+  } catch (error) {
+    for (const [i, page] of context.pages().entries()) await picture(page, `failed-${i}`);
+    throw error;
   } finally {
-    await browser?.close();
+    await context.close();
     for (const s of studios) {
       s.child.removeAllListeners('exit');
       s.child.kill('SIGKILL');
@@ -57,3 +136,8 @@ export async function inBrowser(sources, test, options = ['--disable-gpu']) {
     rmSync(folder, { recursive: true, force: true });
   }
 }
+
+/** Keeps a picture of the page, for whoever looks at FORAGE_PICTURES. */
+export const picture = async (page, name) => {
+  if (process.env.FORAGE_PICTURES) await page.screenshot({ path: join(process.env.FORAGE_PICTURES, `${name}.png`) });
+};

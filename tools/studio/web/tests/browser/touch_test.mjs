@@ -1,27 +1,15 @@
-// Running and touching: driving a group, chosen parameters and their files, seed, speed, undo of moves, worlds, the end. node touch_test.mjs FORAGE SOURCES [PICTURES]
+// Running and touching: driving a group, chosen parameters and their files, seed, speed, undo of moves, worlds, the end.
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
-import { join, resolve } from 'node:path';
-import { inBrowser } from './support.mjs';
+import { join } from 'node:path';
+import { find, picture, until } from './support.mjs';
 
-const [forage, sources, pictures] = process.argv.slice(2).map((p) => resolve(p));
-const step = (text) => console.log(text);
-
-await inBrowser(sources, async ({ folder, context, start, until }) => {
-  const faults = [];
-  const studio = start(forage, ['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
-  const page = await context.newPage();
-  page.on('pageerror', (e) => faults.push(e.message));
+export default async function ({ folder, start, open, faults, step }) {
+  const studio = start(['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
+  const page = await open(await studio.address);
   page.on('dialog', (d) => d.accept());
-  const picture = async (name) => pictures && page.screenshot({ path: join(pictures, `${name}.png`) });
-  await page.goto(await studio.address);
   const tree = page.getByRole('navigation'), inspector = page.getByRole('region', { name: 'Inspector' }), dialog = page.locator('dialog[open]');
   const press = async (...keys) => { for (const k of keys) await page.keyboard.press(k); };
-  const find = async (text) => {
-    await page.keyboard.press('Control+k');
-    await page.keyboard.type(text);
-    await page.keyboard.press('Enter');
-  };
 
   step('a group is driven by keys alone, by a list of patterns in another order');
   await tree.getByText('Motor', { exact: true }).click();
@@ -39,7 +27,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await drive.getByRole('button', { name: 'Pattern 2 earlier' }).click();
   await drive.getByLabel('step').fill('2');
   await drive.getByLabel('backwards').check();
-  await picture('drive');
+  await picture(page, 'drive');
   await drive.getByRole('button', { name: 'Send' }).click();
   await page.getByText('Bug/Motor driven by hand').waitFor();
   await drive.getByRole('button', { name: 'Save…' }).click();
@@ -65,7 +53,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.getByText('Bug/Motor driven by hand').waitFor({ state: 'detached' });
 
   step('a group and a connection that are dropped on the chosen parameters bring theirs; values are written and read');
-  await find('Chosen parameters');
+  await find(page, 'Chosen parameters');
   const chosen = page.getByRole('group', { name: 'Chosen parameters' });
   await tree.getByText('GPS', { exact: true }).dragTo(chosen.locator('.body'));
   await chosen.locator('.head', { hasText: 'Bug/GPS' }).first().waitFor();
@@ -75,7 +63,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await until(page, 'more rows', (n) => document.querySelectorAll('[aria-label="Chosen parameters"] .row').length > n, rows);
   assert.equal(await page.getByRole('group', { name: 'Space plot of Bug/GPS' }).count(), 0, 'no plot opens');
   assert.equal(await page.locator('.dv-drop-target-selection, .dv-drop-target-anchor').count(), 0, 'no frame of a drop stays');
-  await picture('chosen');
+  await picture(page, 'chosen');
   await chosen.getByRole('button', { name: 'Write…' }).click();
   await dialog.getByLabel('Name').fill('mine');
   await press('Enter');
@@ -99,7 +87,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   assert.equal(await seed.inputValue(), '42');
 
   step('a robot that was moved is put back by undo');
-  await find('Show the arena');
+  await find(page, 'Show the arena');
   const arena = page.getByRole('application', { name: /^The world from above/ });
   await arena.focus();
   await press('Tab', 'ArrowRight', 'ArrowRight', 'ArrowRight');
@@ -119,12 +107,12 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await until(page, 'the world is as in its file', () => !document.querySelector('[aria-label*="its world has changes"]'));
 
   step('the open system goes to another world, which is chosen from those that come with Forage');
-  await find('Another world');
+  await find(page, 'Another world');
   await dialog.getByLabel('A world that comes with Forage').selectOption({ label: 'open arena' });
   await dialog.getByRole('button', { name: 'Open', exact: true }).click();
   await page.getByText(/begins anew in open_arena/).waitFor();
   await until(page, 'its name', () => document.querySelector('header .world')?.textContent.includes('open_arena'));
-  await picture('world');
+  await picture(page, 'world');
 
   step('quit ends the program');
   const ended = new Promise((done) => { studio.child.removeAllListeners('exit'); studio.child.on('exit', done); });
@@ -133,4 +121,4 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   assert.equal(await ended, 0);
   await page.getByText('Forage has ended.').waitFor();
   assert.deepEqual(faults, []);
-});
+}

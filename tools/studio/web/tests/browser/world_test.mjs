@@ -1,23 +1,14 @@
-// The world's file is edited on a map, in Chromium against the real program: node world_test.mjs FORAGE SOURCES
+// The world's file is edited on a map, in Chromium against the real program.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import { join, resolve } from 'node:path';
-import { inBrowser } from './support.mjs';
+import { join } from 'node:path';
+import { accessible, until } from './support.mjs';
 
-const [forage, sources] = process.argv.slice(2).map((p) => resolve(p));
-const step = (text) => console.log(text);
-
-await inBrowser(sources, async ({ folder, context, start, until }) => {
-  const faults = [];
+export default async function ({ forage, folder, start, open, faults, step }) {
   const file = 'systems/worlds/basic_arena.world';
   const original = readFileSync(join(folder, file), 'utf8');
-  const studio = start(forage, ['systems/reactive_foraging.iqr', '--world', file]);
-  const page = await context.newPage();
-  page.on('pageerror', (e) => faults.push(e.message));
-  page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
-  await page.goto(await studio.address);
+  const page = await open(await start(['systems/reactive_foraging.iqr', '--world', file]).address);
   await page.getByRole('group', { name: 'Arena' }).waitFor();
   await page.getByRole('button', { name: /Reactive foraging/ }).first().click();
   await page.getByRole('menuitem', { name: 'Edit the world' }).click();
@@ -148,9 +139,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await until(page, 'the robot is back', () => [...document.querySelectorAll('[aria-label="Item"] option')].some((o) => o.value === 'Bug'));
 
   step('axe finds no serious fault of accessibility');
-  await page.evaluate(readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8'));
-  const serious = await page.evaluate(async () => (await window.axe.run({ exclude: ['.dv-tab'] }, { resultTypes: ['violations'] })).violations.filter((v) => ['serious', 'critical'].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 160)).join(' | ')}`));
-  assert.deepEqual(serious, []);
+  await accessible(page);
 
   step('a world that is not saved is marked, also in a page that was loaded anew, and is not left without a question');
   const marked = page.getByRole('img', { name: 'its world has changes that are not saved' });
@@ -209,5 +198,4 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await until(page, 'the other system', () => document.title.startsWith('DAC foraging'));
   assert.equal(asked.length, 2);
   assert.deepEqual(faults, []);
-  console.log('all fine');
-});
+}

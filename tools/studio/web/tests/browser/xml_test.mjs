@@ -1,16 +1,10 @@
-// Systems with mistakes, and the XML editor, in Chromium against the real program: node xml_test.mjs FORAGE SOURCES [SCREENSHOTS]
+// Systems with mistakes, and the XML editor, in Chromium against the real program.
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
-import { join, resolve } from 'node:path';
-import { inBrowser } from './support.mjs';
+import { join } from 'node:path';
+import { accessible, answeredTo, find, picture, sent, until } from './support.mjs';
 
-const [forage, sources, pictures] = process.argv.slice(2).map((p) => resolve(p));
-const step = (text) => console.log(text);
-const axe = readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-
-await inBrowser(sources, async ({ folder, context, start, until }) => {
-  const faults = [];
+export default async function ({ folder, context, start, open, faults, step }) {
   const file = join(folder, 'systems/reactive_foraging.iqr');
   const sound = readFileSync(file, 'utf8');
   // Lines of a file from Windows, some of them: they stay.
@@ -18,59 +12,40 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   const wrongLine = author.split('\n').findIndex((l) => l.includes('</Group>'));
   const broken = author.replace('</Group>', '</Grup>');
   writeFileSync(file, broken);
-  const studio = start(forage, ['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
+  const studio = start(['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
   let printed = '';
   studio.child.stderr.on('data', (d) => (printed += d));
-  const page = await context.newPage();
-  page.on('pageerror', (e) => faults.push(e.message));
-  page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
-  const serious = async (which = page) => {
-    await which.evaluate(axe);
-    return which.evaluate(async () => (await window.axe.run({ exclude: ['.dv-tab'] }, { resultTypes: ['violations'] })).violations.filter((v) => ['serious', 'critical'].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 200)).join(' | ')}`));
-  };
-  const look = async (name) => {
-    if (pictures) await page.screenshot({ path: join(pictures, `${name}.png`) });
-  };
+  const page = await open(await studio.address);
   const panel = page.getByRole('group', { name: 'XML of the system' });
   const text = panel.getByRole('textbox', { name: 'XML of the system' });
   const status = panel.getByRole('status');
   const list = page.getByRole('listbox', { name: 'Completions' });
   const option = (name) => list.getByRole('option', { name });
-  // The editor takes no Enter within a moment after its list appears.
+  // The editor takes no Enter within 75 ms after its list appears.
   const accept = async (name) => {
     await list.getByRole('option', { name, selected: true }).waitFor();
-    await page.waitForTimeout(150);
+    await page.evaluate(() => new Promise((done) => setTimeout(done, 80)));
     await page.keyboard.press('Enter');
     await list.getByRole('option', { name, selected: true }).waitFor({ state: 'detached' });
   };
   const problems = page.getByRole('group', { name: 'Problems' });
-  const palette = async (name) => {
-    await page.keyboard.press('Control+k');
-    await page.keyboard.type(name);
-    await page.keyboard.press('Enter');
-  };
   const line = () => page.evaluate(() => {
     const node = getSelection().anchorNode;
     return (node instanceof Element ? node : node?.parentElement)?.closest('.cm-line')?.textContent ?? '';
   });
 
   step('a file that is not XML opens with its text, its mistake and the list of them');
-  await page.goto(await studio.address);
   await text.waitFor();
   assert.match(printed, new RegExp(`reactive_foraging\\.iqr:${wrongLine + 1}:\\d+: error: .*Grup`));
   await status.getByText('1 mistake: corrected, the system runs').waitFor();
   await panel.locator('.cm-lintRange-error').filter({ hasText: 'Grup' }).waitFor();
   await problems.getByRole('button', { name: /Grup/ }).waitFor();
-  assert.deepEqual(await serious(), []);
-  await look('broken');
+  await accessible(page);
+  await picture(page, 'broken');
 
   step('a click on the problem leads to its line; it is corrected by the keyboard, and the system runs');
-  // The list may be drawn anew between two halves of a click, on a machine that does much else.
-  for (let i = 0; i < 300 && !/<\/Grup>/.test(await line()); ++i) {
-    if (i % 100 === 0) await problems.getByRole('button', { name: /Grup/ }).click();
-    await page.waitForTimeout(100); // the editor moves there
-  }
-  assert.match(await line(), /<\/Grup>/);
+  await problems.getByRole('button', { name: /Grup/ }).click();
+  await until(page, 'the editor moves there', () => getSelection().anchorNode?.parentElement?.closest('.cm-line')?.textContent.includes('</Grup>'));
   await page.keyboard.press('End');
   for (let i = 0; i < '</Grup>'.length; ++i) await page.keyboard.press('Backspace');
   await page.keyboard.type('</'); // the editor ends what is open
@@ -133,8 +108,8 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await page.keyboard.press('Control+Space');
   await option(/weight/).waitFor();
   await page.locator('.cm-completionInfo').getByText(/default 1/).waitFor();
-  await look('completion');
-  assert.deepEqual(await serious(), []);
+  await picture(page, 'completion');
+  await accessible(page);
   await accept(/weight/);
   await page.keyboard.press('Tab');
   await page.keyboard.type('0.5');
@@ -145,6 +120,7 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   step('a mistake is marked as it is written; F8 leads to it; undo takes it back');
   await page.keyboard.press('Escape');
   await page.keyboard.press('Home');
+  const before = await line();
   await page.keyboard.type('<Nonsense/>');
   await panel.locator('.cm-lintRange-error').filter({ hasText: '<Nonsense' }).waitFor();
   await status.getByText(/1 mistake: the last system without them runs on/).waitFor();
@@ -154,13 +130,11 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   assert.match(await line(), /<Nonsense/);
   await page.keyboard.press('Escape');
   await page.evaluate(() => document.documentElement.classList.add('dark'));
-  await look('dark');
-  assert.deepEqual(await serious(), []);
+  await picture(page, 'dark');
+  await accessible(page);
   await page.evaluate(() => document.documentElement.classList.remove('dark'));
-  for (let i = 0; i < 3 && (await panel.locator('.cm-lintRange-error').count()); ++i) {
-    await page.keyboard.press('Control+z');
-    await page.waitForTimeout(700);
-  }
+  for (let i = 0; i < '<Nonsense/>'.length && (await line()) !== before; i++) await page.keyboard.press('Control+z');
+  assert.equal(await line(), before);
   await status.getByText('No mistakes').waitFor();
 
   step('Tab writes, and after Escape it leaves the editor');
@@ -171,11 +145,13 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   assert.equal(await inside(), false);
 
   step('an edit of the diagram appears in the text, and a step of the text is undone like others');
-  await palette('Approach Inhibition');
+  await find(page, 'Approach Inhibition');
   const inspector = page.getByRole('region', { name: 'Inspector' });
+  const reads = await sent(page, 'document');
   await inspector.getByLabel('Name', { exact: true }).fill('Renamed here');
   await inspector.getByLabel('Name', { exact: true }).press('Enter');
-  await palette('Edit the XML');
+  await answeredTo(page, 'document', reads);
+  await find(page, 'Edit the XML');
   await page.keyboard.press('Escape');
   await text.press('Control+Home');
   await page.keyboard.press('Control+f');
@@ -202,14 +178,14 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   assert.match(readFileSync(file, 'utf8'), /<!-- meanwhile -->/);
 
   step('the XML of an item: marks while it is written, completion, and what is taken over');
-  await palette('US to Approach');
+  await find(page, 'US to Approach');
   await inspector.getByText('XML', { exact: true }).click();
   const item = inspector.getByRole('textbox', { name: 'XML of the item' });
   await item.waitFor();
   const written = (await item.locator('.cm-line').allInnerTexts()).join('\n');
   await item.fill(written.replace('excitatory', 'excited'));
   await inspector.locator('.cm-lintRange-error').filter({ hasText: 'excited' }).waitFor();
-  assert.deepEqual(await serious(), []);
+  await accessible(page);
   await item.fill(written.replace('excitatory', 'inhibitory'));
   await inspector.locator('.cm-lintRange-error').waitFor({ state: 'detached' });
   await item.press('Control+Enter');
@@ -225,12 +201,10 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
   await dialog.getByRole('button', { name: 'Open', exact: true }).click();
   await dialog.waitFor({ state: 'detached' });
   await panel.locator('.cm-lintRange-error').filter({ hasText: 'Proces' }).waitFor();
-  const small = await context.newPage();
-  await small.setViewportSize({ width: 420, height: 800 });
-  await small.goto(new URL(await studio.address).origin);
+  const small = await open(new URL(page.url()).origin, { width: 420, height: 800 });
   await small.locator('.cm-lintRange-error').filter({ hasText: 'Proces' }).waitFor();
-  if (pictures) await small.screenshot({ path: join(pictures, 'small.png') });
-  assert.deepEqual(await serious(small), []);
+  await picture(small, 'small');
+  await accessible(small);
   await small.close();
   await text.fill('<System id="s" name="Other">\n  <Process id="p" name="P"><DiagramIcon x="9" y="9"/></Process>\n</System>\n');
   await status.getByText('No mistakes').waitFor();
@@ -240,18 +214,15 @@ await inBrowser(sources, async ({ folder, context, start, until }) => {
 
   step('the first page of a sound system loads no editor');
   const loaded = [];
-  const second = start(forage, ['systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
+  const second = start(['systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
   const other = await context.newPage();
   other.on('request', (r) => loaded.push(r.url()));
   await other.goto(await second.address);
   await other.getByRole('group', { name: 'Arena' }).waitFor();
   assert.deepEqual(loaded.filter((u) => /XmlEditor/.test(u)), []);
-  await other.keyboard.press('Control+k');
-  await other.keyboard.type('edit the xml');
-  await other.keyboard.press('Enter');
+  await find(other, 'edit the xml');
   await other.getByRole('textbox', { name: 'XML of the system' }).waitFor();
   assert.equal(loaded.filter((u) => /XmlEditor\.js/.test(u)).length, 1);
 
   assert.deepEqual(faults, []);
-  console.log('all fine');
-});
+}
