@@ -1,7 +1,7 @@
 // The arena in Chromium against the real program: keys, and the view in space.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { accessible, until } from './support.mjs';
+import { accessible, eventually, until } from './support.mjs';
 
 /** What of the arena is looked at. */
 async function shown(page) {
@@ -54,6 +54,7 @@ export default async function ({ context, start, open, faults, step }) {
   assert.ok(tabs >= 3 && tabs < 20, `${tabs} times Tab`);
 
   step('in space: robots, grippers and walls; keys turn and zoom the view; it draws while the run goes');
+  await page.setViewportSize({ width: 1100, height: 700 }); // each pixel is drawn by the processor
   await arena.getByRole('button', { name: '3-D' }).click();
   await arena.getByRole('application', { name: /in space/ }).waitFor();
   const png = async () => {
@@ -63,11 +64,9 @@ export default async function ({ context, start, open, faults, step }) {
   const drawn = async (what, key, differs) => {
     await view.focus();
     await page.keyboard.press(key);
-    for (let i = 0; ; i++) {
-      const p = await png();
-      if (p.length > 8000 && differs(p)) return p; // an empty picture of this size is smaller
-      assert.ok(i < 50, `waited in vain: ${what}`);
-    }
+    let p;
+    await eventually(what, async () => (p = await png()).length > 8000 && differs(p)); // an empty picture of this size is smaller
+    return p;
   };
   let earlier = await png();
   const settled = (p) => {

@@ -24,6 +24,7 @@ export default async function ({ folder, start, open, faults, step }) {
   await second.getByText('Undo brings back both.').waitFor();
   await page.keyboard.press('Control+z');
   await plot(second, 'UR').waitFor();
+  await second.getByRole('button', { name: 'Close the message' }).click();
   await second.getByText('Undo brings back both.').waitFor({ state: 'detached' });
 
   step('another system that is opened in one page is another one in the other page, too, also when it has the same ids');

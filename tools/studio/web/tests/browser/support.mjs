@@ -99,6 +99,30 @@ function watchSocket() {
   };
 }
 
+// Playwright looks for an element every half second, after the first tries. With shorter limits, it looks every 50 ms.
+function lookOften(locator) {
+  const prototype = Object.getPrototypeOf(locator), { waitFor } = prototype;
+  if (prototype.looksOften) return;
+  prototype.looksOften = true;
+  prototype.waitFor = async function (options) {
+    const end = performance.now() + patience;
+    for (let timeout = 400; ; timeout *= 2)
+      try {
+        return await waitFor.call(this, { timeout, ...options });
+      } catch (error) {
+        if (error.name !== 'TimeoutError' || performance.now() > end) throw error;
+      }
+  };
+  // What acts on an element waits for it in the same way.
+  for (const act of ['click', 'dblclick', 'fill', 'press', 'selectOption', 'focus', 'innerText', 'textContent', 'inputValue']) {
+    const { [act]: then } = prototype;
+    prototype[act] = async function (...given) {
+      await this.first().waitFor({ state: 'attached' });
+      return then.apply(this, given);
+    };
+  }
+}
+
 /** Calls `test` with a folder of its own that has the systems, a fresh context of the browser, and what starts studios and opens their pages. */
 export async function inBrowser(browser, forage, sources, test) {
   const folder = mkdtempSync(join(tmpdir(), 'forage-page-'));
@@ -118,6 +142,7 @@ export async function inBrowser(browser, forage, sources, test) {
   /** A page that shows the address; `size` is that of its window. */
   const open = async (address, size) => {
     const page = await context.newPage();
+    lookOften(page.locator('body'));
     if (size) await page.setViewportSize(size);
     await page.goto(address);
     return page;
