@@ -54,7 +54,7 @@ export default async function ({ context, start, open, faults, step }) {
   assert.ok(tabs >= 3 && tabs < 20, `${tabs} times Tab`);
 
   step('in space: robots, grippers and walls; keys turn and zoom the view; it draws while the run goes');
-  await page.setViewportSize({ width: 1100, height: 700 }); // each pixel is drawn by the processor
+  await page.setViewportSize({ width: 1040, height: 560 }); // each pixel is drawn by the processor
   await arena.getByRole('button', { name: '3-D' }).click();
   await arena.getByRole('application', { name: /in space/ }).waitFor();
   const png = async () => {
