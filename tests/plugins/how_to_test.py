@@ -6,6 +6,7 @@ Files are the code blocks whose lead says `NAME`; commands are the blocks of `sh
 one is what its last command prints.
 """
 
+import concurrent.futures
 import os
 import pathlib
 import re
@@ -73,22 +74,23 @@ class HowTo(unittest.TestCase):
         self.assertEqual(here, start)
         return commands
 
+    def each(self, do, items):
+        """Does something for each of several items, at the same time."""
+        with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+            done = {item: pool.submit(do, item) for item in items}
+        for item, future in done.items():
+            with self.subTest(item):
+                future.result()
+
     def test_every_page_is_followed_to_its_last_block(self):
-        for page in ("write-a-neuron", "write-a-module", "three-factor-learning", "debug-a-plugin", "embed", "write-an-observer"):
+        commands = {"write-a-neuron": 15, "write-a-module": 12, "three-factor-learning": 3, "debug-a-plugin": 12, "embed": 3, "write-an-observer": 4}
+
+        def follow(page):
             text = (PAGES / f"{page}.md").read_text()
             self.assertEqual(len(re.findall(r"^```\w+$", text, re.MULTILINE)), len(list(BLOCK.finditer(text))), page)
+            self.assertGreaterEqual(self.follow(page), commands[page])
 
-    def test_write_a_neuron(self):
-        self.assertGreaterEqual(self.follow("write-a-neuron"), 15)
-
-    def test_write_a_module(self):
-        self.assertGreaterEqual(self.follow("write-a-module"), 12)
-
-    def test_three_factor_learning(self):
-        self.assertGreaterEqual(self.follow("three-factor-learning"), 3)
-
-    def test_debug_a_plugin(self):
-        self.assertGreaterEqual(self.follow("debug-a-plugin"), 12)
+        self.each(follow, commands)
 
     def test_a_member_of_an_unsupported_type_gives_one_error(self):
         for wrong, message in (('s.param("rates", &Wrong::rates)', "a parameter is a bool, double, int or std::string"),
@@ -122,23 +124,18 @@ FORAGE_PLUGIN(Wrong);
         printed = run(["/usr/bin/python3", "-c", code], self.folder / "root/usr/share/forage", environment)
         self.assertEqual(printed.split(), ["5", str(self.folder / "root/usr/lib/python3/dist-packages/forage/__init__.py")])
 
-    def test_embed(self):
-        self.assertGreaterEqual(self.follow("embed"), 3)
-
-    def test_write_an_observer(self):
-        self.assertGreaterEqual(self.follow("write-an-observer"), 4)
-
     def test_projects_of_all_kinds_build_and_pass_their_test(self):
-        for kind in ("neuron", "synapse", "module"):
-            with self.subTest(kind):
-                run(f"forage new {kind} my-{kind}_2", self.folder, self.environment)
-                here = self.folder / f"my-{kind}_2"
-                for command in ("cmake -B build", "cmake --build build", "ctest --test-dir build"):
-                    run(command, here, self.environment)
-                # The project's test can fail.
-                expected = here / "expected.csv"
-                expected.write_text(expected.read_text().replace("\n0,0", "\n0,7"))
-                run("ctest --test-dir build", here, self.environment, status=8)
+        def build(kind):
+            run(f"forage new {kind} my-{kind}_2", self.folder, self.environment)
+            here = self.folder / f"my-{kind}_2"
+            for command in ("cmake -B build", "cmake --build build", "ctest --test-dir build"):
+                run(command, here, self.environment)
+            # The project's test can fail.
+            expected = here / "expected.csv"
+            expected.write_text(expected.read_text().replace("\n0,0", "\n0,7"))
+            run("ctest --test-dir build", here, self.environment, status=8)
+
+        self.each(build, ("neuron", "synapse", "module"))
 
     def test_a_project_builds_beside_a_forage_that_is_not_installed(self):
         here = self.folder / "beside"
