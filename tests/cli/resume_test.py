@@ -212,7 +212,7 @@ class Resume(Stopped):
     def test_a_changed_file_of_a_module_is_refused_unless_the_run_wrote_it(self):
         weights = self.here / "learned.weights"
         arguments = ("run", DAC, "--world", WORLD, "--seed", 2, "--cycles", 4000, "-q", "--hash",
-                     "--set", f"Adaptive.File Name={weights}", "--schedule", "cycle 300: Adaptive.write=true")
+                     "--set", f"Adaptive.File Name={weights}", "--schedule", "cycle 60: Adaptive.write=true")
         self.forage(*arguments, "-o", "through")
         whole = weights.read_bytes()
         weights.unlink()
@@ -222,7 +222,7 @@ class Resume(Stopped):
         self.assertEqual(weights.read_bytes(), whole)
         weights.write_bytes(whole + b"\n")
         done = self.forage("resume", "out", status=2)
-        self.assertRegex(done.stderr, r"learned.weights', a file of a module, has changed since cycle 30\d\n  hint: ")
+        self.assertRegex(done.stderr, r"learned.weights', a file of a module, has changed since cycle 6\d\n  hint: ")
         weights.write_bytes(whole)
         process = self.start("resume", "out")
         wait_for_cycles(process)
