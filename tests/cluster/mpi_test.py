@@ -17,7 +17,7 @@ class Mpi(ExperimentTest):
 
     def setUp(self):
         super().setUp()
-        self.write(seeds=100, trials=4)
+        self.write(seeds=20, trials=1)
 
     def start(self, ranks, *arguments):
         return subprocess.Popen(["mpirun", "-n", str(ranks), MPI, *arguments], cwd=self.folder, env={**os.environ, **MPI_ENVIRONMENT}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
@@ -32,7 +32,7 @@ class Mpi(ExperimentTest):
         return len(self.lines())
 
     def test_ranks_are_killed(self):
-        self.write(seeds=max(100, 10 * KILLS), trials=4)
+        self.write(seeds=max(100, 10 * KILLS), trials=2)
         chance = random.Random(1)
         killed = 0
         for _ in range(KILLS or 5):
