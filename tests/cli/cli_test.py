@@ -93,7 +93,7 @@ class Run(Cli):
         trials = [dict(zip(header, row)) for row in rows]
         column = lambda name: [list(map(float, row[1:])) for row in self.table(f"out/{name}_act.csv")[1:]]
         discrepancy, prototype = column("Adaptive_discrepancy"), column("Adaptive_prototype")
-        empty = column("Contextual_Empty")
+        empty = self.table("out/Contextual_Empty_act.csv")[1:]  # large: only what is needed becomes numbers
         stored = 0
         for trial in trials[:-1]:
             first = int(trial["first_cycle"])
@@ -101,7 +101,8 @@ class Run(Cli):
             self.assertEqual(float(trial["discrepancy"]), discrepancy[end][0])
             peaks = [float(trial["distractor_peak"]), float(trial["cue_peak"])]
             self.assertEqual(max(peaks), max(max(cells) for cells in prototype[first + 1:end + 1]))
-            memory = [empty[end][row * 100:(row + 1) * 100] for row in range(50)]
+            cells = list(map(float, empty[end][1:]))
+            memory = [cells[row * 100:(row + 1) * 100] for row in range(50)]
             if sum(map(sum, memory)) == 0:  # closed: it has written nothing yet
                 self.assertEqual((trial["sequences"], trial["segments"]), ("0", "0"))
                 continue
