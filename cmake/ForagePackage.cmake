@@ -76,17 +76,20 @@ file(WRITE ${PROJECT_BINARY_DIR}/package/changelog "forage (${PROJECT_VERSION}-$
  -- ${CPACK_PACKAGE_CONTACT}  Mon, 23 Nov 2026 12:00:00 +0000
 ")
 find_program(GZIP gzip REQUIRED)
+set(package_files ${PROJECT_BINARY_DIR}/package/forage.1.gz)
 add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/package/forage.1.gz
                    COMMAND ${GZIP} -9nk -f changelog COMMAND ${CMAKE_COMMAND} -E rename changelog.gz changelog.Debian.gz
                    COMMAND forage man > forage.1 COMMAND ${GZIP} -9n -f forage.1
                    WORKING_DIRECTORY ${PROJECT_BINARY_DIR}/package VERBATIM)
-add_custom_target(package_files ALL DEPENDS ${PROJECT_BINARY_DIR}/package/forage.1.gz)
 install(FILES ${PROJECT_BINARY_DIR}/package/forage.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 if(TARGET forage-mpi)
-  add_custom_command(TARGET package_files POST_BUILD VERBATIM WORKING_DIRECTORY ${PROJECT_BINARY_DIR}/package
-                     COMMAND ${GZIP} -9nc ${PROJECT_SOURCE_DIR}/tools/cluster/forage-mpi.1 > forage-mpi.1.gz)
+  list(APPEND package_files ${PROJECT_BINARY_DIR}/package/forage-mpi.1.gz)
+  add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/package/forage-mpi.1.gz DEPENDS ${PROJECT_SOURCE_DIR}/tools/cluster/forage-mpi.1
+                     COMMAND ${GZIP} -9nc ${PROJECT_SOURCE_DIR}/tools/cluster/forage-mpi.1 > forage-mpi.1.gz
+                     WORKING_DIRECTORY ${PROJECT_BINARY_DIR}/package VERBATIM)
   install(FILES ${PROJECT_BINARY_DIR}/package/forage-mpi.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT mpi)
 endif()
+add_custom_target(package_files ALL DEPENDS ${package_files})
 foreach(component ${CPACK_COMPONENTS_ALL})
   string(TOUPPER ${component} name)
   set(folder ${CMAKE_INSTALL_DATAROOTDIR}/doc/${CPACK_DEBIAN_${name}_PACKAGE_NAME})

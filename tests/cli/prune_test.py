@@ -85,7 +85,7 @@ class Pruning(Stopped):
         self.assertGreater(self.pruned(self.forage(*arguments, "-o", "through")), 8)
         for how in (signal.SIGTERM, signal.SIGKILL):
             process = self.start(*arguments, "--checkpoint-every", 50, "-o", "out")
-            self.until_there_is("out/checkpoint.forage")
+            self.until_there_is("out/checkpoint.forage", process)
             self.stop(process, 0.02, how)
             self.assertGreater(self.pruned(self.forage("resume", "out")), 8)
             self.assert_same("out")

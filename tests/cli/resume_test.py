@@ -20,7 +20,7 @@ import unittest
 from cli_test import FORAGE, PROJECT, SMALL_SYSTEM, SYSTEM, WORLD, Cli, wait_for, wait_for_cycles
 
 DAC = str(PROJECT / "systems/dac_foraging.iqr")
-KILLS = int(os.environ.get("FORAGE_KILLS", "50"))
+KILLS = int(os.environ.get("FORAGE_KILLS", "15"))
 
 # All kinds of files, incomplete means, a change whose condition depends on the run, and a manipulation.
 EVERYTHING = ("run", DAC, "--world", WORLD, "--seed", "3", "--hash", "-q",
