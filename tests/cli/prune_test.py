@@ -83,10 +83,10 @@ class Pruning(Stopped):
     def test_a_resumed_run_prunes_the_same_groups(self):
         arguments = (*RUN, *MOTOR, "--cycles", 3000)
         self.assertGreater(self.pruned(self.forage(*arguments, "-o", "through")), 8)
-        for how in (signal.SIGTERM, signal.SIGKILL):
+        for how, status in ((signal.SIGTERM, 143), (signal.SIGKILL, -signal.SIGKILL)):
             process = self.start(*arguments, "--checkpoint-every", 50, "-o", "out")
             self.until_there_is("out/checkpoint.forage", process)
-            self.stop(process, 0.02, how)
+            self.end(process, how, status)
             self.assertGreater(self.pruned(self.forage("resume", "out")), 8)
             self.assert_same("out")
             for file in (self.here / "out").iterdir():
