@@ -14,7 +14,8 @@ struct Endless {
         s.name("neuronEndless", "Endless").output("act", &Cell::act, "Activity");
     }
     void update(Cell&, const Input&) const {
-        for (;;) std::this_thread::sleep_for(std::chrono::hours(1));  // what runs beside it keeps the processor
+        for (;;)
+            std::this_thread::sleep_for(std::chrono::hours(1));  // what runs beside it keeps the processor
     }
 };
 FORAGE_PLUGIN(Endless);

@@ -138,8 +138,8 @@ int describe(const DescribeOptions& options);
 /// Writes a page with the pictures and tables of a directory of results: plain HTML that loads nothing from
 /// the network.
 int view(const std::string& directory);
-/// Becomes the program forage-studio, which runs a system that browsers on this machine watch and touch, until
-/// Ctrl-C. `arguments` are those of `forage`, with a null pointer at the end.
+/// Becomes the program forage-studio, which runs a system that browsers on this machine watch and touch,
+/// until Ctrl-C. `arguments` are those of `forage`, with a null pointer at the end.
 int studio(char** arguments);
 /// Lists the types, or describes one with its parameters.
 int types(const std::string& name, const std::vector<std::string>& plugins);

@@ -12,8 +12,8 @@ namespace forage::tool {
 int studio(char** arguments) {
     const std::string server = installation() / "bin/forage-studio";
     execv(server.c_str(), arguments);
-    fmt::print(stderr, "error: cannot start '{}': {}\n  hint: ./tools/open-studio builds the studio\n", server,
-               std::strerror(errno));
+    fmt::print(stderr, "error: cannot start '{}': {}\n  hint: ./tools/open-studio builds the studio\n",
+               server, std::strerror(errno));
     return run_failed;
 }
 
