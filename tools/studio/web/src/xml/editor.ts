@@ -141,6 +141,13 @@ export function makeEditor(parent: HTMLElement, options: EditorOptions): XmlEdit
     }),
   });
   const text = () => view.state.doc.toString();
+  // With the focus, the browser moves its selection to the beginning of what is drawn. The editor does not always see that at once, and then follows it there.
+  function focus() {
+    view.focus();
+    const { anchor, head } = view.state.selection.main;
+    const from = view.domAtPos(anchor), to = view.domAtPos(head);
+    getSelection()?.setBaseAndExtent(from.node, from.offset, to.node, to.offset);
+  }
   return {
     text,
     setText(now) {
@@ -161,10 +168,10 @@ export function makeEditor(parent: HTMLElement, options: EditorOptions): XmlEdit
       const at = view.state.doc.line(Math.max(1, Math.min(line, view.state.doc.lines)));
       const anchor = at.from + unitsBefore(at.text, column);
       view.dispatch({ selection: { anchor }, effects: EditorView.scrollIntoView(anchor, { y: 'center' }) });
-      view.focus();
+      focus();
     },
-    next: () => void (nextDiagnostic(view), view.focus()),
-    focus: () => view.focus(),
+    next: () => void (nextDiagnostic(view), focus()),
+    focus,
     destroy: () => view.destroy(),
   };
 }

@@ -44,7 +44,8 @@ export default async function ({ folder, context, start, open, faults, step }) {
   await picture(page, 'broken');
 
   step('a click on the problem leads to its line; it is corrected by the keyboard, and the system runs');
-  await problems.getByRole('button', { name: /Grup/ }).click();
+  // As long as that of a hand: the editor has noticed that the focus left it.
+  await problems.getByRole('button', { name: /Grup/ }).click({ delay: 50 });
   await until(page, 'the editor moves there', () => getSelection().anchorNode?.parentElement?.closest('.cm-line')?.textContent.includes('</Grup>'));
   await page.keyboard.press('End');
   for (let i = 0; i < '</Grup>'.length; ++i) await page.keyboard.press('Backspace');
