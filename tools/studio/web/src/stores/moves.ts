@@ -21,10 +21,10 @@ export const floats = (p: IDockviewPanel) => p.api.location.type === 'floating';
 export const shares = (p: IDockviewPanel) => p.group.panels.length > 1;
 const neighbour = (p: IDockviewPanel, side: Side) => dock.api!.adjacentGroupInDirection(p.group, sides[side].towards) as DockviewGroupPanel | undefined;
 
-/** Puts the focus on the tab of a panel, once it is where it belongs. */
+/** Puts the focus on the tab of a panel. At once: a later moment would take it from what a key has opened meanwhile. */
 export function focusTab(p: IDockviewPanel | undefined): void {
   p?.api.setActive();
-  requestAnimationFrame(() => p?.view.tab.element.closest<HTMLElement>('.dv-tab')?.focus());
+  p?.view.tab.element.closest<HTMLElement>('.dv-tab')?.focus();
 }
 /** After each change: the layout is kept, and the focus goes along with the panel. */
 function done(p: IDockviewPanel | undefined): void {

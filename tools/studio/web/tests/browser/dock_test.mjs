@@ -215,6 +215,18 @@ export default async function ({ folder, start, open, faults, step }) {
   await inMenu('Move left');
   assert.deepEqual(await order(), columns);
 
+  step('a menu that is opened right after an action keeps the focus');
+  await press('Shift+F10');
+  await page.getByRole('menuitem', { name: 'Wider' }).waitFor();
+  await page.evaluate(async () => {
+    [...document.querySelectorAll('[role=menuitem]')].find((e) => e.textContent.startsWith('Maximize')).click();
+    document.activeElement.dispatchEvent(new MouseEvent('contextmenu', { bubbles: true, cancelable: true }));
+    for (let i = 0; i < 3; i++) await new Promise(requestAnimationFrame);
+  });
+  await choose('Restore');
+  await focused('Arena');
+  assert.deepEqual(await order(), columns);
+
   step('Ctrl+K has the same actions, for the active panel');
   await find(page, 'panel: float');
   await focused('Arena');
