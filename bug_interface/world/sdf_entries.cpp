@@ -18,7 +18,7 @@ bool has_plugin(const SourceElement& e, std::string_view file) {
 }
 
 /// Whether light sensors (at 0.35 m) see one of its cylinders and proximity sensors (at 0.175 m) do not.
-bool is_target(const Body& body) {
+bool is_target(const ItemElement& body) {
     return std::ranges::any_of(forms_of(body, "collision"), [&](const Form& f) {
         const auto size = extents(body.text, *f.shape);
         if (f.shape->name != "cylinder" || size.size() != 2) return false;
@@ -104,7 +104,7 @@ std::vector<Entry> entries_of(std::string_view text, const WorldTree& tree, Mode
     return out;
 }
 
-std::vector<Form> forms_of(const Body& body, std::string_view owner) {
+std::vector<Form> forms_of(const ItemElement& body, std::string_view owner) {
     std::vector<Form> out;
     if (!body.element) return out;
     for (const auto& link : body.element->children) {

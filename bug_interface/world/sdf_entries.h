@@ -12,13 +12,13 @@
 namespace forage::bug {
 
 /// The element that says what an item is: it stands in the world's text, or in that of an included model.
-struct Body {
+struct ItemElement {
     std::string_view text;
     xml::SourceElement root;  ///< of the model's file; unused when the element stands in the world
     const xml::SourceElement* element = nullptr;  ///< a <model> or <light>; null when the model is not found
-    Body() = default;
-    Body(Body&&) = default;  // a copy would point into the tree of the original
-    Body& operator=(Body&&) = default;
+    ItemElement() = default;
+    ItemElement(ItemElement&&) = default;  // a copy would point into the tree of the original
+    ItemElement& operator=(ItemElement&&) = default;
 };
 
 struct Entry {
@@ -27,7 +27,7 @@ struct Entry {
     std::string name;
     std::string kind;  ///< see WorldItem::kind
     const xml::SourceElement* element = nullptr;
-    Body body = {};  ///< of a model or light
+    ItemElement body = {};  ///< of a model or light
 
     /// Whether it stands at a place of the floor.
     bool placed() const {
@@ -49,7 +49,7 @@ struct Form {
     PoseText pose;                    ///< in the model; without the tilt of the link
 };
 /// The shapes of a model's own links, without planes: of the elements `owner`, "collision" or "visual".
-std::vector<Form> forms_of(const Body& body, std::string_view owner);
+std::vector<Form> forms_of(const ItemElement& body, std::string_view owner);
 /// The extents of a shape: three of a box; the radius, and of a cylinder the length.
 std::vector<double> extents(std::string_view text, const xml::SourceElement& shape);
 

@@ -111,7 +111,7 @@ std::vector<std::pair<Length, double>> common_lengths(const Entry& e) {
 }
 
 /// The visuals of a model's own links, with their colours; without those that show a picture.
-std::vector<std::pair<const SourceElement*, std::string>> painted(const Body& body) {
+std::vector<std::pair<const SourceElement*, std::string>> painted(const ItemElement& body) {
     std::vector<std::pair<const SourceElement*, std::string>> out;
     if (!body.element || body.element->name != "model") return out;
     for (const auto& link : body.element->children)
@@ -129,7 +129,7 @@ std::vector<const SourceElement*> collisions(const Entry& e) {
 struct Sun {
     double azimuth = 0, elevation = 90;  ///< degrees: to the left of x, and above the floor
 };
-Sun sun_of(const Body& body) {
+Sun sun_of(const ItemElement& body) {
     const auto d = numbers_in(body.text, child(*body.element, "direction"));
     if (d.size() != 3) return {};
     const double along = std::hypot(d[0], d[1]);

@@ -11,7 +11,7 @@ namespace {
 using xml::SourceElement;
 
 /// Whether a model is fixed and of links only, several of them, none of which is a floor.
-bool is_divisible(const Body& body) {
+bool is_divisible(const ItemElement& body) {
     if (!body.element || body.element->name != "model" || !all(*body.element, "plane").empty()) return false;
     std::size_t links = 0;
     for (const auto& e : body.element->children) {
