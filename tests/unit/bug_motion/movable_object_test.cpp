@@ -130,7 +130,8 @@ TEST_CASE("Shapes touch only if they share heights") {
 
 TEST_CASE(
     "In a million steps of random commands among walls, balls and crates, nothing penetrates, and no energy "
-    "appears") {
+    "appears",
+    "[long]") {
     std::vector<Obstacle> walls(5);
     walls[0].outline = wall(0, 2.1, 5, 0.2), walls[1].outline = wall(0, -2.1, 5, 0.2);
     walls[2].outline = wall(2.1, 0, 0.2, 5), walls[3].outline = wall(-2.1, 0, 0.2, 5);

@@ -115,7 +115,7 @@ TEST_CASE("A robot slides along walls and into corners as in steps of 1 ms") {
     CHECK(difference(ways[0], ways[1]) < 1.63);
 }
 
-TEST_CASE("A crowd of robots with grippers and balls moves as in steps of 1 ms") {
+TEST_CASE("A crowd of robots with grippers and balls moves as in steps of 1 ms", "[long]") {
     WorldDescription text = description("team_arena");
     text.game.reset();
     const RandomStream random(6, "crowd");

@@ -270,7 +270,7 @@ bool meets(ShapeKind kind, const Eigen::Vector3d& half, const Eigen::Vector3d& o
 
 }  // namespace
 
-TEST_CASE("A solid is drawn in the pixels whose rays meet it, and in no other") {
+TEST_CASE("A solid is drawn in the pixels whose rays meet it, and in no other", "[long]") {
     const Arena& arena = Arena::get();
     const WorldDescription nothing;
     const Camera camera = far_camera(arena, std::make_shared<Scene>(nothing));
@@ -383,7 +383,7 @@ void put(WorldDescription& world, ShapeKind kind, const Pose& pose, const Eigen:
 
 }  // namespace
 
-TEST_CASE("Pictures in company equal those that are cast ray by ray, to the bit") {
+TEST_CASE("Pictures in company equal those that are cast ray by ray, to the bit", "[long]") {
     std::mt19937 chance(11);
     const auto uniform = [&](double from, double to) {
         return std::uniform_real_distribution<double>(from, to)(chance);

@@ -121,7 +121,7 @@ TEST_CASE("everything in every world is found, moved and removed, and nothing el
     }
 }
 
-TEST_CASE("every property of everything in every world takes another value, which is read back") {
+TEST_CASE("every property of everything in every world takes another value, which is read back", "[long]") {
     for (const auto& file : worlds()) {
         INFO(file.string());
         const std::string text = read_file(file.string());
@@ -154,7 +154,8 @@ TEST_CASE("every property of everything in every world takes another value, whic
 
 TEST_CASE(
     "every kind of item is added to every world and edited, and the world without it has the bytes of "
-    "before") {
+    "before",
+    "[long]") {
     for (const auto& file : worlds()) {
         INFO(file.string());
         const std::string text = read_file(file.string());

@@ -160,7 +160,7 @@ struct Large {
 
 }  // namespace
 
-TEST_CASE("Groups and connections divided between threads have the bits of whole ones") {
+TEST_CASE("Groups and connections divided between threads have the bits of whole ones", "[long]") {
     Large large;
     model::ModuleUse echo;
     echo.type = "moduleEcho";

@@ -227,7 +227,8 @@ TEST_CASE("Quiescent groups are not computed again, and no bit changes") {
     }
 }
 
-TEST_CASE("Delivering to a group as soon as its sources are updated is the same as phase by phase") {
+TEST_CASE("Delivering to a group as soon as its sources are updated is the same as phase by phase",
+          "[long]") {
     const Registry types = registry();
     const double min_task_ns = GENERATE(0, 1e9);  // parts, or whole groups
     for (unsigned seed = 1; seed <= 20; ++seed) {
@@ -360,7 +361,7 @@ TEST_CASE("Connections are compiled to the form that fits them") {
     CHECK(simulation.connection_form(4) == "list");
 }
 
-TEST_CASE("The number of threads changes no bit") {
+TEST_CASE("The number of threads changes no bit", "[long]") {
     auto system = random_system(3, 8, 8);
     const std::string process = system.processes[0].id, from = system.processes[0].groups[0].id,
                       to = system.processes[0].groups[1].id;

@@ -97,7 +97,8 @@ Measures mean_of(const std::vector<Measures>& all) {
 }  // namespace
 
 TEST_CASE(
-    "The allostatic agent keeps its needs in balance, the control agent does not; caution buys security") {
+    "The allostatic agent keeps its needs in balance, the control agent does not; caution buys security",
+    "[long]") {
     std::vector<Measures> control, allostatic, cautious;
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         control.push_back(trial(true, 1, seed));

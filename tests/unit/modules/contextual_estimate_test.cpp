@@ -244,7 +244,7 @@ TEST_CASE("A layer with estimates selects the same segments and has the same act
     CHECK(on_the_edge > 200);
 }
 
-TEST_CASE("A trigger that is NaN does not hide the errors of others") {
+TEST_CASE("A trigger that is NaN does not hide the errors of others", "[long]") {
     const Index cells = 100;
     int wrong = 0, not_numbers = 0;
     for (unsigned world = 0; world < 5000; ++world) {
@@ -270,7 +270,7 @@ TEST_CASE("A trigger that is NaN does not hide the errors of others") {
     CHECK(not_numbers > 4000);
 }
 
-TEST_CASE("The selection is the same when the errors of estimates are as large as possible") {
+TEST_CASE("The selection is the same when the errors of estimates are as large as possible", "[long]") {
     // All cells of a prototype except one are equal, so that all are rounded in the same direction.
     Drawn drawn(7);
     const Index cells = 400;

@@ -231,7 +231,7 @@ TEST_CASE("a text without a change keeps its bytes") {
     }
 }
 
-TEST_CASE("an edit changes the lines of its item only, in every file") {
+TEST_CASE("an edit changes the lines of its item only, in every file", "[long]") {
     Registry registry;
     add_neurons(registry), add_synapses(registry);
     if (!test::absent(test::shared_dir() / "original")) CHECK(all_systems().size() > 15);
