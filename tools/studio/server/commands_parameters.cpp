@@ -1,8 +1,11 @@
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "tools/api/describe_json.h"
 #include "tools/api/text_parts.h"
 #include "tools/studio/server/command_functions.h"
+#include "tools/studio/server/commands.h"
 #include "tools/studio/server/equivalents.h"
 
 namespace forage::studio {
