@@ -59,7 +59,7 @@ class Project(unittest.TestCase):
                 self.assertEqual(subprocess.run(["sh", "-n", script]).returncode, 0, script.name)
 
     def test_scripts_say_what_they_do_and_do_nothing_else(self):
-        for name in ("demo", "test", "setup", "docs", "package", "sanitize", "fuzz", "test-in", "update-docs", "lint", "bench"):
+        for name in ("demo", "test", "setup", "docs", "package", "sanitize", "fuzz", "test-in", "update-docs", "lint", "bench", "nightly"):
             done = subprocess.run([PROJECT / "tools" / name, "--help"], capture_output=True, text=True, timeout=600)
             self.assertEqual((done.returncode, done.stderr), (0, ""), name)
             self.assertGreater(len(done.stdout), 60, name)
