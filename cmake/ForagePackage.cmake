@@ -80,7 +80,7 @@ set(package_files ${PROJECT_BINARY_DIR}/package/forage.1.gz)
 add_custom_command(OUTPUT ${PROJECT_BINARY_DIR}/package/forage.1.gz
                    COMMAND ${GZIP} -9nk -f changelog COMMAND ${CMAKE_COMMAND} -E rename changelog.gz changelog.Debian.gz
                    COMMAND forage man > forage.1 COMMAND ${GZIP} -9n -f forage.1
-                   WORKING_DIRECTORY ${PROJECT_BINARY_DIR}/package VERBATIM)
+                   DEPENDS forage WORKING_DIRECTORY ${PROJECT_BINARY_DIR}/package VERBATIM)
 install(FILES ${PROJECT_BINARY_DIR}/package/forage.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
 if(TARGET forage-mpi)
   list(APPEND package_files ${PROJECT_BINARY_DIR}/package/forage-mpi.1.gz)

@@ -1,15 +1,13 @@
-// Texts in a row.
+// A list of texts as one text.
 #pragma once
 
 #include <string>
 #include <string_view>
 
-#include "core/base/separated.h"
-
 namespace forage {
 
-/// The texts of a container, with `separator` between them. separated() does the same, but each room that
-/// uses it takes 0.2 s longer to compile.
+/// The texts of a container, with `separator` between them. fmt::join() does the same, but its header and its
+/// instances take 0.2 s of compile time in each room.
 template <class Texts>
 std::string separated(const Texts& texts, std::string_view separator) {
     std::string out;
