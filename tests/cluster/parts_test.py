@@ -111,7 +111,7 @@ class Parts(ExperimentTest):
             return process.wait() != 0
 
         parts = merges = 0
-        for number in range(KILLS or 20):
+        for number in range(KILLS or 10):
             wanted = len(self.lines()) + chance.randrange(10)  # by progress; 0 is during the start
             parts += killed(lambda: len(self.lines()) >= wanted, "--shard", f"{number % 2 + 1}/2")
         for part in ("1/2", "2/2"):
