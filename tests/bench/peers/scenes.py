@@ -6,13 +6,17 @@ OTHER_STEPS = ["Enki, 5 ms"]
 COLUMNS = ["Forage", "Enki", "Bullet", "MuJoCo", *OTHER_STEPS]
 
 
+def program(programs, peer):
+    return programs / f"peer_{peer.lower()}_robots"
+
+
 def workers(scene, programs, peers):
     """All make steps of 1 ms, 80 in a cycle. Enki also makes its usual ones of 5 ms."""
-    found = {"Forage": Worker([programs / "peer_forage_robots", scene])}
+    found = {"Forage": Worker([program(programs, "Forage"), scene])}
     for name in COLUMNS[1:]:
         peer, _, steps = name.partition(",")
         if peer in peers:
-            found[name] = Worker([programs / f"peer_{peer.lower()}_robots", scene, *(["16"] if steps else [])])
+            found[name] = Worker([program(programs, peer), scene, *(["16"] if steps else [])])
     return found
 
 
