@@ -1,7 +1,7 @@
 # Builds the page of the studio with Node, and makes the source file that holds it: run by the build as
-#   cmake -DWEB=tools/studio/web -DTUTORIAL=docs/tutorial -DBASIC=tools/studio/server/basic -DWORK=folder -DNPM=npm -DSTRICT=ON -DOUTPUT=assets.cpp -DDONE=assets.done -P StudioPage.cmake
-# Without NPM, or when npm fails and STRICT is off, only the hand-written page is in it. The file DONE is missing when npm failed, so that
-# the next build tries again.
+#   cmake -DWEB=tools/studio/web -DTUTORIAL=docs/tutorial -DWORK=folder -DNPM=npm -DSTRICT=ON -DOUTPUT=assets.cpp -DDONE=assets.done -P StudioPage.cmake
+# Without NPM, or when npm fails and STRICT is off, the page only says how to build it. The file DONE is missing when npm failed, so
+# that the next build tries again.
 set(page "")
 file(REMOVE ${DONE})
 if(NPM)
@@ -25,8 +25,14 @@ if(NPM)
   elseif(STRICT)
     message(FATAL_ERROR "the page of the studio cannot be built:\n${out}")
   else()
-    message("The page of the studio cannot be built (npm failed): only the hand-written page /basic is in the program. The next build tries again.\n${out}")
+    message("The page of the studio cannot be built (npm failed): the studio only says how to build it. The next build tries again.\n${out}")
   endif()
+endif()
+
+set(folder ${page})
+if(NOT page)
+  set(folder ${WORK}/no_page)
+  configure_file(${CMAKE_CURRENT_LIST_DIR}/no_studio_page.html ${folder}/index.html COPYONLY)
 endif()
 
 find_program(GZIP gzip REQUIRED)
@@ -36,22 +42,20 @@ set(count 0)
 set(data "")
 set(names "")
 set(table "")
-foreach(folder ${BASIC} ${page})
-  file(GLOB_RECURSE files RELATIVE ${folder} ${folder}/*)
-  list(SORT files)
-  foreach(file ${files})
-    set(from ${folder}/${file})
-    set(gzip false)
-    if(file MATCHES "\\.(html|js|css|svg|json|md|txt)$")
-      set(gzip true)
-      execute_process(COMMAND ${GZIP} -9 -n -c ${from} OUTPUT_FILE ${WORK}/packed/${count} COMMAND_ERROR_IS_FATAL ANY)
-      set(from ${WORK}/packed/${count})
-    endif()
-    string(APPEND data "    \".global forage_asset_${count}, forage_asset_end_${count}\\n\"\n    \"forage_asset_${count}: .incbin \\\"${from}\\\"\\n\"\n    \"forage_asset_end_${count}: .byte 0\\n\"\n")
-    string(APPEND names "extern const unsigned char forage_asset_${count}[], forage_asset_end_${count}[];\n")
-    string(APPEND table "    {\"/${file}\", forage_asset_${count}, forage_asset_end_${count}, ${gzip}},\n")
-    math(EXPR count "${count} + 1")
-  endforeach()
+file(GLOB_RECURSE files RELATIVE ${folder} ${folder}/*)
+list(SORT files)
+foreach(file ${files})
+  set(from ${folder}/${file})
+  set(gzip false)
+  if(file MATCHES "\\.(html|js|css|svg|json|md|txt)$")
+    set(gzip true)
+    execute_process(COMMAND ${GZIP} -9 -n -c ${from} OUTPUT_FILE ${WORK}/packed/${count} COMMAND_ERROR_IS_FATAL ANY)
+    set(from ${WORK}/packed/${count})
+  endif()
+  string(APPEND data "    \".global forage_asset_${count}, forage_asset_end_${count}\\n\"\n    \"forage_asset_${count}: .incbin \\\"${from}\\\"\\n\"\n    \"forage_asset_end_${count}: .byte 0\\n\"\n")
+  string(APPEND names "extern const unsigned char forage_asset_${count}[], forage_asset_end_${count}[];\n")
+  string(APPEND table "    {\"/${file}\", forage_asset_${count}, forage_asset_end_${count}, ${gzip}},\n")
+  math(EXPR count "${count} + 1")
 endforeach()
 file(WRITE ${OUTPUT} "// Made by cmake/StudioPage.cmake.
 asm(\".section .rodata\\n\"

@@ -40,7 +40,7 @@ class Refusals(unittest.TestCase):
         self.assertEqual(self.status('/', self.cookie), 200)
 
     def test_nothing_without_the_token(self):
-        for target in ('/', '/basic', '/assets/basic.js', '/picture?what=world', '/ws', '/?token=', '/?token=0'):
+        for target in ('/', '/index.html', '/picture?what=world', '/ws', '/?token=', '/?token=0'):
             self.assertEqual(self.status(target), 403, target)
         self.assertEqual(self.status('/', f'Cookie: forage_{self.studio.port}=' + '0' * 32), 403)
         self.assertEqual(self.status('/', f'Cookie: forage_{self.studio.port}={self.studio.token[:-1]}'), 403)
@@ -57,12 +57,12 @@ class Refusals(unittest.TestCase):
 
     def test_methods_paths_and_sizes(self):
         self.assertEqual(self.status('/', self.cookie, method='POST'), 405)
-        for target in ('/assets/', '/../etc/passwd', '/assets/../basic.html', '/%2e%2e/', '/etc'):
+        for target in ('/assets/', '/../etc/passwd', '/assets/../index.html', '/%2e%2e/', '/etc'):
             self.assertEqual(self.status(target, self.cookie), 404, target)
         self.assertIn(self.status('/' + 'a' * 20000, self.cookie), (0, 413))
 
     def test_headers(self):
-        _, head, _ = http(self.studio.port, '/basic', [self.cookie])
+        _, head, _ = http(self.studio.port, '/', [self.cookie])
         self.assertIn("Content-Security-Policy: default-src 'self'", head)
         self.assertIn('X-Content-Type-Options: nosniff', head)
 

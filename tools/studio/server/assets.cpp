@@ -5,7 +5,7 @@
 
 namespace forage::studio {
 
-/// A file of the page, from the table that the build makes (cmake/ForageStudioAssets.cmake).
+/// A file of the page, from the table that the build makes (cmake/StudioPage.cmake).
 struct Asset {
     const char* path;
     const unsigned char *begin, *end;
@@ -15,15 +15,10 @@ extern const Asset assets[];
 extern const int asset_count;
 
 std::optional<Content> find_asset(const std::string& path) {
-    const auto find = [](std::string_view wanted) -> const Asset* {
-        for (int i = 0; i < asset_count; ++i)
-            if (assets[i].path == wanted) return &assets[i];
-        return nullptr;
-    };
-    const std::string name = path == "/basic" ? "/basic.html" : path == "/" ? "/index.html" : path;
-    const Asset* found = find(name);
-    if (!found && path == "/") found = find("/basic.html");
-    if (!found) return std::nullopt;
+    const std::string_view name = path == "/" ? "/index.html" : std::string_view(path);
+    const Asset* const end = assets + asset_count;
+    const Asset* const found = std::find_if(assets, end, [&](const Asset& a) { return a.path == name; });
+    if (found == end) return std::nullopt;
     constexpr std::pair<std::string_view, const char*> types[] = {{".html", "text/html; charset=utf-8"},
                                                                   {".js", "text/javascript; charset=utf-8"},
                                                                   {".css", "text/css; charset=utf-8"},

@@ -8,8 +8,8 @@
 
 namespace forage::studio {
 
-/// The file for a path: "/" is the page, or the hand-written one in a build without Node; "/basic" is always
-/// the hand-written one. Empty when there is no such file.
+/// The file for a path: "/" is the page, which only says how to build it in a build without Node. Empty when
+/// there is no such file.
 std::optional<Content> find_asset(const std::string& path);
 
 }  // namespace forage::studio
