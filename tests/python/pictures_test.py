@@ -10,14 +10,14 @@ from conftest import SYSTEMS, WORLD, open_dac
 
 PICTURES = ["time:Bug/Light", "time:mean(Bug/Light)", "space:Bug/Light@100,200", "movie:Bug/Motor@0..100/10", "diagram", "diagram:Bug",
             "connection:Light to US", "trajectory"]
-FILES = ["time_Bug_Light.png", "time_mean_Bug_Light.png", "space_Bug_Light_100_200.png", "movie_Bug_Motor_0..100_10.png", "diagram.png",
+FILES = ["time_Bug_Light.png", "time_mean_Bug_Light.png", "space_Bug_Light_100_200.png", "movie_Bug_Motor_0..100_10.gif", "diagram.png",
          "diagram_Bug.png", "connection_Light_to_US.png", "trajectory.png"]
 
 
 def test_pictures_are_those_of_the_command_line(dac, command, tmp_path):
     arguments = [a for picture in PICTURES for a in ("--plot", picture)]
     command("run", SYSTEMS / "dac_foraging.iqr", "--world", WORLD, "--cycles", 400, "-o", tmp_path / "out", *arguments)
-    written = {file.name: file.read_bytes() for file in (tmp_path / "out").glob("*.png")}
+    written = {file.name: file.read_bytes() for file in (tmp_path / "out").iterdir() if file.suffix in (".png", ".gif")}
     for source in ("Bug/Light", "mean(Bug/Light)", "Bug/Motor"):
         dac.probe(source)
     dac.run(cycles=400)
@@ -34,6 +34,10 @@ def test_pictures_have_formats_and_are_saved(dac, tmp_path):
     svg.save(tmp_path / "diagram.svg")
     assert (tmp_path / "diagram.svg").read_bytes() == svg.data
     assert dac.plot("space:Bug/Light").data  # the last cycle needs no probe
+    dac.probe("Bug/Motor")
+    dac.run(cycles=10)
+    movie = dac.plot("movie:Bug/Motor")
+    assert movie.data.startswith(b"GIF89a") and "data:image/gif;base64," in movie._repr_html_() and movie._repr_png_() is None
     twin = copy.copy(dac)
     assert twin.plot("trajectory").data == png.data
 

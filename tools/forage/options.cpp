@@ -234,7 +234,7 @@ void add_plot(CLI::App& app, PlotOptions& o) {
         "  space:SOURCE@100,200            the group as a picture at these cycles; without '@' at the last "
         "one\n"
         "  space:SOURCE@0..1000/100        at every 100th cycle; ';blocks=9x1' at the end divides the group\n"
-        "  movie:SOURCE@0..500/5           the same as an animated PNG\n"
+        "  movie:SOURCE@0..500/5           the same as an animated GIF\n"
         "  connection:NAME                 the synapses between two groups, with strength and delay\n"
         "  wiring:NAME                     the receptive field of each cell of a small group\n"
         "  connection:NAME@0,100           weights that are learned, at these cycles; also "

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <map>
 #include <stdexcept>
 
@@ -11,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "bug_interface/world/png.h"
-#include "tools/plot/apng.h"
 #include "tools/plot/cairo_handle.h"
+#include "tools/plot/gif.h"
 
 namespace forage::plot {
 namespace {
@@ -62,26 +61,45 @@ std::string renumbered(const std::string& svg) {
     return out.append(svg, copied);
 }
 
-std::string png(const Picture& picture) {
-    const CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24,
-                                                          static_cast<int>(std::ceil(picture.width)),
-                                                          static_cast<int>(std::ceil(picture.height))));
+/// Both colour maps, and greys for the text.
+std::vector<std::uint32_t> animation_colours() {
+    const auto rgb = [](const Colour& c) {
+        const auto byte = [](double v) { return static_cast<std::uint32_t>(std::lround(255 * v)); };
+        return byte(c.r) << 16 | byte(c.g) << 8 | byte(c.b);
+    };
+    constexpr int steps = 96, greys = 255 - 2 * steps;
+    std::vector<std::uint32_t> out;
+    for (int i = 0; i < steps; ++i) {
+        const double fraction = static_cast<double>(i) / (steps - 1);
+        out.push_back(rgb(sequential(fraction))), out.push_back(rgb(diverging(2 * fraction - 1)));
+    }
+    for (int i = 0; i < greys; ++i) {
+        const double grey = static_cast<double>(i) / (greys - 1);
+        out.push_back(rgb({grey, grey, grey}));
+    }
+    return out;
+}
+
+CairoSurface drawn(const Picture& picture) {
+    CairoSurface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24,
+                                                    static_cast<int>(std::ceil(picture.width)),
+                                                    static_cast<int>(std::ceil(picture.height))));
     draw(picture, surface.get(), 1);
-    cairo_surface_flush(surface.get());
-    const int width = cairo_image_surface_get_width(surface.get());
-    const int height = cairo_image_surface_get_height(surface.get());
-    const unsigned char* data = cairo_image_surface_get_data(surface.get());
-    const int stride = cairo_image_surface_get_stride(surface.get());
-    std::vector<std::uint8_t> rgb(std::size_t(3) * std::size_t(width) * std::size_t(height));
+    return surface;
+}
+
+std::string png(const Picture& picture) {
+    const CairoSurface surface = drawn(picture);
+    const Pixels pixels = pixels_of(surface.get());
+    std::vector<std::uint8_t> rgb(std::size_t(3) * std::size_t(pixels.width) * std::size_t(pixels.height));
     std::uint8_t* out = rgb.data();
-    for (int row = 0; row < height; ++row)
-        for (int column = 0; column < width; ++column, out += 3) {
-            std::uint32_t pixel = 0;
-            std::memcpy(&pixel, data + row * stride + 4 * column, sizeof pixel);
+    for (int row = 0; row < pixels.height; ++row)
+        for (int column = 0; column < pixels.width; ++column, out += 3) {
+            const auto pixel = pixels.rgb[std::size_t(row) * pixels.stride + std::size_t(column)];
             out[0] = static_cast<std::uint8_t>(pixel >> 16), out[1] = static_cast<std::uint8_t>(pixel >> 8),
             out[2] = static_cast<std::uint8_t>(pixel);
         }
-    return bug::encode_png(width, height, rgb);
+    return bug::encode_png(pixels.width, pixels.height, rgb);
 }
 
 }  // namespace
@@ -200,9 +218,14 @@ std::string render(const Picture& picture, Format format) {
 }
 
 std::string render_animation(const std::vector<Picture>& frames, double seconds) {
-    std::vector<std::string> pngs;
-    for (const auto& f : frames) pngs.push_back(png(f));
-    return animated_png(pngs, seconds);
+    std::string out;
+    GifFile gif(&out, seconds, animation_colours());
+    for (const auto& frame : frames) {
+        const CairoSurface surface = drawn(frame);
+        gif.add(pixels_of(surface.get()));
+    }
+    gif.finish();
+    return out;
 }
 
 Measure::Measure()

@@ -61,9 +61,8 @@ struct Picture {
 /// when cairo fails.
 std::string render(const Picture& picture, Format format);
 
-/// The content of an animated PNG that shows each picture for `seconds` and repeats forever. All pictures
-/// have the size of the first one. Viewers that do not support animations show the first picture. Throws
-/// std::runtime_error when cairo fails.
+/// The content of an animated GIF that shows each picture for `seconds` and repeats forever. Throws
+/// std::runtime_error when cairo fails or the pictures differ in size.
 std::string render_animation(const std::vector<Picture>& frames, double seconds);
 
 /// A canvas that measures text before the size of the picture is known.

@@ -68,13 +68,7 @@ class Film::Screen {
         panel_.draw(canvas_, panel_left(), film_head);
     }
 
-    Pixels pixels() {
-        cairo_surface_flush(surface_.get());
-        return {
-            width_, height_,
-            static_cast<std::size_t>(cairo_image_surface_get_stride(surface_.get())) / sizeof(std::uint32_t),
-            reinterpret_cast<const std::uint32_t*>(cairo_image_surface_get_data(surface_.get()))};
-    }
+    Pixels pixels() { return pixels_of(surface_.get()); }
     void write_png(const std::string& name) const {
         if (cairo_surface_write_to_png(surface_.get(), name.c_str()) != CAIRO_STATUS_SUCCESS)
             throw std::runtime_error(fmt::format("cannot write '{}'", name));

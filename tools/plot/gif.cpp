@@ -19,6 +19,11 @@ constexpr int cube = 6, transparent = 255, greys = transparent - cube * cube * c
 int cube_level(int i) { return (i * 255 + (cube - 1) / 2) / (cube - 1); }
 int grey_level(int i) { return ((i + 1) * 255 + (greys + 1) / 2) / (greys + 1); }
 
+GifColorType from_rgb(std::uint32_t rgb) {
+    const auto byte = [rgb](int shift) { return static_cast<GifByteType>(rgb >> shift & 255); };
+    return {byte(16), byte(8), byte(0)};
+}
+
 std::array<GifColorType, 256> make_table() {
     std::array<GifColorType, 256> table{};
     const auto byte = [](int v) { return static_cast<GifByteType>(v); };
@@ -51,16 +56,29 @@ std::uint8_t nearest_colour(std::uint32_t rgb) {
             : in_cube);
 }
 
+int in_hundredths(double seconds) { return std::max(2, static_cast<int>(std::lround(100 * seconds))); }
+
+int append_bytes(GifFileType* file, const GifByteType* bytes, int count) {
+    static_cast<std::string*>(file->UserData)
+        ->append(reinterpret_cast<const char*>(bytes), static_cast<std::size_t>(count));
+    return count;
+}
+
 }  // namespace
 
 GifFile::GifFile(std::string name, double seconds_per_frame)
-    : name_(std::move(name)),
-      hundredths_(std::max(2, static_cast<int>(std::lround(100 * seconds_per_frame)))) {}
+    : name_(std::move(name)), hundredths_(in_hundredths(seconds_per_frame)) {}
+
+GifFile::GifFile(std::string* content, double seconds_per_frame, std::vector<std::uint32_t> colours)
+    : name_("an animation"),
+      content_(content),
+      colours_(std::move(colours)),
+      hundredths_(in_hundredths(seconds_per_frame)) {}
 
 GifFile::~GifFile() {
     if (!file_) return;
     EGifCloseFile(file_, nullptr);
-    std::remove((name_ + ".part").c_str());
+    if (!content_) std::remove((name_ + ".part").c_str());
 }
 
 void GifFile::check(bool good) const {
@@ -69,13 +87,15 @@ void GifFile::check(bool good) const {
 
 void GifFile::begin(const Pixels& frame) {
     int error = 0;
-    file_ = EGifOpenFileName((name_ + ".part").c_str(), false, &error);
+    file_ = content_ ? EGifOpen(content_, append_bytes, &error)
+                     : EGifOpenFileName((name_ + ".part").c_str(), false, &error);
     check(file_ != nullptr);
     width_ = frame.width, height_ = frame.height;
     const auto pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     rgb_.resize(pixels), numbers_.resize(pixels), changes_.assign(pixels, transparent);
     EGifSetGifVersion(file_, true);
     auto table = make_table();
+    for (std::size_t i = 0; i < colours_.size(); ++i) table[i] = from_rgb(colours_[i]);
     const std::unique_ptr<ColorMapObject, void (*)(ColorMapObject*)> colours(
         GifMakeMapObject(256, table.data()), GifFreeMapObject);
     check(colours && EGifPutScreenDesc(file_, width_, height_, 8, 0, colours.get()) == GIF_OK);
@@ -86,6 +106,26 @@ void GifFile::begin(const Pixels& frame) {
           EGifPutExtensionTrailer(file_) == GIF_OK);
 }
 
+std::uint8_t GifFile::number_of(std::uint32_t rgb) {
+    rgb &= 0xFFFFFF;
+    if (colours_.empty()) return nearest_colour(rgb);
+    const auto [at, added] = nearest_.try_emplace(rgb);
+    if (added) {
+        const auto away = [rgb](std::uint32_t other) {
+            int sum = 0;
+            for (const int shift : {0, 8, 16}) {
+                const int d = static_cast<int>(rgb >> shift & 255) - static_cast<int>(other >> shift & 255);
+                sum += d * d;
+            }
+            return sum;
+        };
+        const auto nearest = std::min_element(colours_.begin(), colours_.end(),
+                                              [&](auto a, auto b) { return away(a) < away(b); });
+        at->second = static_cast<std::uint8_t>(nearest - colours_.begin());
+    }
+    return at->second;
+}
+
 void GifFile::add(const Pixels& frame) {
     if (!file_) begin(frame);
     if (frame.width != width_ || frame.height != height_)
@@ -93,7 +133,7 @@ void GifFile::add(const Pixels& frame) {
     const auto width = static_cast<std::size_t>(width_);
     int left = width_, top = height_, right = 0, bottom = 0;  // of the rectangle that has changed
     std::uint32_t last = 0;
-    std::uint8_t number = nearest_colour(last);
+    std::uint8_t number = number_of(last);
     for (int y = 0; y < height_; ++y) {
         const std::uint32_t* row = frame.rgb + static_cast<std::size_t>(y) * frame.stride;
         const std::size_t begin = static_cast<std::size_t>(y) * width;
@@ -109,7 +149,7 @@ void GifFile::add(const Pixels& frame) {
             for (; x < end; ++x, ++before) {
                 if (frames_ > 0 && row[x] == *before) continue;
                 *before = row[x];
-                if (row[x] != last) number = nearest_colour(last = row[x]);
+                if (row[x] != last) number = number_of(last = row[x]);
                 const std::size_t i = begin + static_cast<std::size_t>(x);
                 if (frames_ > 0 && number == numbers_[i]) continue;
                 numbers_[i] = changes_[i] = number;
@@ -140,7 +180,7 @@ void GifFile::finish() {
     GifFileType* file = file_;
     file_ = nullptr;
     check(EGifCloseFile(file, &error) == GIF_OK &&
-          std::rename((name_ + ".part").c_str(), name_.c_str()) == 0);
+          (content_ || std::rename((name_ + ".part").c_str(), name_.c_str()) == 0));
 }
 
 }  // namespace forage::plot

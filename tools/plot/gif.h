@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 struct GifFileType;
@@ -17,14 +18,17 @@ struct Pixels {
     const std::uint32_t* rgb = nullptr;
 };
 
-/// Writes an animated GIF that repeats forever, frame by frame. The colours are from a fixed table (6 x 6 x 6
-/// colours and 39 greys), so that the same frames give the same bytes. Only the rectangle of a frame that has
-/// changed is written, and what has not changed in it is transparent, which compresses best. The file is
-/// called NAME.part until finish(); without frames, no file remains. Functions throw std::runtime_error when
-/// the file cannot be written.
+/// Writes an animated GIF that repeats forever, frame by frame. The colours are from a fixed table, so that
+/// the same frames give the same bytes. Only the rectangle of a frame that has changed is written, and what
+/// has not changed in it is transparent, which compresses best. The file is called NAME.part until finish();
+/// without frames, no file remains. Functions throw std::runtime_error when the file cannot be written or the
+/// frames differ in size.
 class GifFile {
   public:
+    /// The table has 6 x 6 x 6 colours and 39 greys.
     GifFile(std::string name, double seconds_per_frame);
+    /// Appends the file to `content`, which must live until finish(). The table has at most 255 `colours`.
+    GifFile(std::string* content, double seconds_per_frame, std::vector<std::uint32_t> colours);
     ~GifFile();
     GifFile(const GifFile&) = delete;
     GifFile& operator=(const GifFile&) = delete;
@@ -37,9 +41,13 @@ class GifFile {
 
   private:
     void begin(const Pixels& frame);
+    std::uint8_t number_of(std::uint32_t rgb);
     void check(bool good) const;
 
     std::string name_;
+    std::string* content_ = nullptr;
+    std::vector<std::uint32_t> colours_;                       ///< of the table; empty for that of files
+    std::unordered_map<std::uint32_t, std::uint8_t> nearest_;  ///< the numbers of colours that were looked up
     int hundredths_;
     GifFileType* file_ = nullptr;
     int width_ = 0, height_ = 0;

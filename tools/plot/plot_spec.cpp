@@ -31,7 +31,7 @@ std::string PlotSpec::file(Format format) const {
     std::string out(name(kind));
     for (const std::string& text_part : {what, cycles_text, part})
         if (!text_part.empty()) out += "_" + text_part;
-    return file_name(out) + std::string(ending(kind == Kind::movie ? Format::png : format));
+    return file_name(out) + std::string(kind == Kind::movie ? ".gif" : ending(format));
 }
 
 std::optional<PlotSpec> parse_plot(std::string_view text, std::string_view option, Diagnostics& diagnostics,

@@ -308,7 +308,7 @@ Raises InputError for a run that was not opened from a file, and OSError when th
 
 picture: "time:SOURCE" over time, "space:SOURCE" the last cycle or "space:SOURCE@100,200", "movie:SOURCE", "trajectory", "diagram" or
     "diagram:Process", "connection:NAME", "wiring:NAME" (docs/reference/expressions.md). Pictures over time show what a probe has recorded.
-format: png, svg or pdf. A movie is always an animated png.
+format: png, svg or pdf. A movie is always an animated gif.
 robot: whose trajectory, from 0.
 
 Raises InputError.)_")

@@ -16,7 +16,7 @@ py::object plot(PythonRun& run, const std::string& picture, const std::string& f
     const std::string content = draw(run.use(), picture, format, robot, &warnings);
     warn(warnings);
     const bool movie = picture.starts_with("movie:");
-    return py::module_::import("forage._picture").attr("Picture")(py::bytes(content), movie ? "png" : format);
+    return py::module_::import("forage._picture").attr("Picture")(py::bytes(content), movie ? "gif" : format);
 }
 
 py::object diagram(PythonRun& run, const std::optional<std::string>& process, const std::string& format) {

@@ -11,7 +11,7 @@ class Picture:
         self.data = data
         """The content of the file, as bytes."""
         self.format = format
-        """png, svg or pdf."""
+        """png, svg, pdf, or gif for a movie."""
 
     def save(self, file: str | bytes | os.PathLike[str] | os.PathLike[bytes]) -> None:
         """Writes the picture to a file, whatever its name is."""
@@ -23,11 +23,12 @@ class Picture:
 
     def _repr_html_(self) -> str | None:
         # A picture of its own, not elements of the page: cairo's ids repeat in every SVG, and nbconvert removes what it does not know.
-        if self.format != "svg":
+        mime = {"svg": "image/svg+xml", "gif": "image/gif"}.get(self.format)
+        if mime is None:
             return None
         import base64  # when it is needed: importing forage stays light
 
-        return f'<img style="max-width: 100%" src="data:image/svg+xml;base64,{base64.b64encode(self.data).decode()}">'
+        return f'<img style="max-width: 100%" src="data:{mime};base64,{base64.b64encode(self.data).decode()}">'
 
     def __repr__(self) -> str:
         return f"<forage.Picture, {self.format}, {len(self.data)} bytes>"
