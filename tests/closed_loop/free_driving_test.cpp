@@ -18,7 +18,7 @@
 #include <cmath>
 #include <vector>
 
-#include "tests/unit/bug_motion/worlds.h"
+#include "tests/unit/bug_interface/worlds.h"
 
 using namespace forage;
 using namespace forage::bug;

@@ -10,7 +10,7 @@
 
 #include "bug_interface/motion/overlap.h"
 #include "core/base/random.h"
-#include "tests/unit/bug_motion/worlds.h"
+#include "tests/unit/bug_interface/worlds.h"
 
 using namespace forage;
 using namespace forage::bug;

@@ -1,0 +1,77 @@
+#include "core/observe/manipulation.h"
+
+#include "core/run/run.h"
+#include "tests/unit/core/engine/simulations.h"
+
+using namespace forage;
+using namespace forage::test;
+using observe::Manipulation;
+
+namespace {
+
+/// The activity of two cells that are 1 without manipulation, in each of `cycles` cycles, as 10 x the first +
+/// the second.
+std::vector<double> played(Manipulation::Settings settings, int cycles) {
+    model::System system;
+    model::add_group(system, model::add_process(system, "P"), "A", 2, 1, "one");
+    Diagnostics diagnostics;
+    Run run = *Run::make(system, registry(), nullptr, {}, diagnostics);
+    run.add(std::make_unique<Manipulation>(std::move(settings)));
+    const auto& a = run.record("P/A");
+    for (int t = 0; t < cycles; ++t) run.step();
+    std::vector<double> out;
+    for (int t = 0; t < cycles; ++t) out.push_back(10 * a.rows()(t, 0) + a.rows()(t, 1));
+    return out;
+}
+
+const std::vector<std::vector<double>> list = {{2, 3}, {4, 5}, {6, 7}, {8, 9}, {0, 1}};
+
+observe::Condition from_cycle(double n) {
+    model::System system;
+    model::add_group(system, model::add_process(system, "P"), "A", 2, 1, "one");
+    const auto s = test::run(system, registry());
+    Diagnostics diagnostics;
+    return *observe::parse_condition(s.layout(), false, "cycle " + to_text(ParameterValue(n)), "",
+                                     diagnostics);
+}
+
+}  // namespace
+
+TEST_CASE("A pattern replaces, is added to, or multiplies the activity") {
+    using V = std::vector<double>;
+    CHECK(played({.mode = Manipulation::Mode::clamp, .patterns = {{2, 3}}}, 2) == V{23, 23});
+    CHECK(played({.mode = Manipulation::Mode::add, .patterns = {{2, 3}}}, 2) == V{34, 34});
+    CHECK(played({.mode = Manipulation::Mode::multiply, .patterns = {{2, 3}}}, 2) == V{23, 23});
+    CHECK(played({.mode = Manipulation::Mode::multiply, .patterns = {{0, 1}}}, 2) == V{1, 1});
+}
+
+TEST_CASE("A list is played in order, backwards, in steps, with pauses, and a given number of times") {
+    using V = std::vector<double>;
+    CHECK(played({.patterns = list}, 7) == V{23, 45, 67, 89, 1, 23, 45});
+    CHECK(played({.patterns = list, .backwards = true}, 7) == V{1, 89, 67, 45, 23, 1, 89});
+    CHECK(played({.patterns = list, .step = 2}, 5) == V{23, 67, 1, 23, 67});
+    CHECK(played({.patterns = list, .step = 3, .backwards = true}, 5) == V{1, 45, 1, 45, 1});
+    CHECK(played({.patterns = list, .every = 3}, 7) == V{23, 11, 11, 45, 11, 11, 67});
+    CHECK(played({.patterns = list, .step = 2, .times = 2}, 8) == V{23, 67, 1, 23, 67, 1, 11, 11});
+    CHECK(played({.patterns = {{2, 3}}, .every = 2, .times = 2}, 6) == V{23, 11, 23, 11, 11, 11});
+}
+
+TEST_CASE("A manipulation begins and ends when its conditions first hold") {
+    using V = std::vector<double>;
+    CHECK(played({.patterns = list, .from = from_cycle(2)}, 5) == V{11, 11, 23, 45, 67});
+    CHECK(played({.patterns = list, .from = from_cycle(1), .until = from_cycle(3)}, 5) ==
+          V{11, 23, 45, 11, 11});
+    CHECK(played({.patterns = list, .every = 2, .until = from_cycle(3)}, 5) == V{23, 11, 45, 11, 11});
+}
+
+TEST_CASE("Each pattern of a table is valid from its cycle until that of the next pattern") {
+    using V = std::vector<double>;
+    const Manipulation::Settings table{.patterns = {{2, 3}, {4, 5}, {6, 7}, {8, 9}}, .starts = {1, 1, 3, 4}};
+    CHECK(played(table, 6) == V{11, 45, 45, 67, 89, 89});
+    auto limited = table;
+    limited.starts[0] = -1;
+    limited.from = from_cycle(2), limited.until = from_cycle(4);
+    CHECK(played(limited, 6) == V{11, 11, 45, 67, 11, 11});
+    CHECK(played({.patterns = {{2, 3}}, .starts = {-1}}, 2) == V{23, 23});
+    CHECK(played({.mode = Manipulation::Mode::add, .patterns = {{2, 3}}, .starts = {1}}, 3) == V{11, 34, 34});
+}
