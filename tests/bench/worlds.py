@@ -1,4 +1,4 @@
-"""How fast whole worlds run, brains, senses and noise included: robots at walls, in company and in teams.
+"""How fast whole worlds run, brains, senses and noise included: robots at walls, in pairs and in teams.
 
     worlds.py FORAGE [BEFORE]
 
