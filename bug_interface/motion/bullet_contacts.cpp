@@ -10,7 +10,7 @@ namespace {
 
 constexpr float box_half_height = 1;   ///< m; has no effect, since all contacts are horizontal
 constexpr btScalar residual = 1e-10f;  ///< (m/s)^2; stops the solver at errors of about 1e-5 m/s
-constexpr int most_iterations = 60;
+constexpr int max_iterations = 60;
 constexpr double same_point = 1e-5;  ///< m; boxes touch at the same point at several heights
 
 btScalar scalar(double v) { return static_cast<btScalar>(v); }
@@ -64,7 +64,7 @@ BulletContacts::BulletContacts() : fixed_(body_info(0)) {
     info_.m_solverMode = SOLVER_USE_WARMSTARTING | SOLVER_ENABLE_FRICTION_DIRECTION_CACHING;
     info_.m_warmstartingFactor = 1;
     info_.m_leastSquaresResidualThreshold = residual;
-    info_.m_numIterations = most_iterations;
+    info_.m_numIterations = max_iterations;
     info_.m_erp2 = 0;  // no position correction: obstacles push nothing out in the original
 }
 

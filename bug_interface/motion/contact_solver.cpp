@@ -7,7 +7,7 @@
 namespace forage::bug {
 namespace {
 
-constexpr int most_turns = 100;
+constexpr int max_turns = 100;
 constexpr double settled = 1e-5;  ///< m/s, rad/s; smaller changes of all velocities in a turn end the turns
 
 }  // namespace
@@ -72,7 +72,7 @@ void ContactSolver::solve(std::span<const PushedBody> bodies, std::span<PointCon
     }
     velocities_.clear();
     for (const PushedBody& b : bodies) velocities_.push_back(*b.velocity);
-    for (int turn = 0; turn < most_turns; ++turn) {
+    for (int turn = 0; turn < max_turns; ++turn) {
         for (const Row& row : rows_) apply(row);
         double change = 0;
         for (std::size_t i = 0; i < bodies.size(); ++i) {

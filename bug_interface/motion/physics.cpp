@@ -36,12 +36,12 @@ Physics::Physics(std::span<const Obstacle> obstacles, std::span<const Body> bodi
       bullet_contacts_(std::make_unique<BulletContacts>()),
       box_contacts_(std::make_unique<BoxContacts>()) {
     collision_masks_.resize(max_layers, ~LayerMask{0});
-    std::size_t most_parts = 0;
+    std::size_t max_parts = 0;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         if (bodies_[i].radius > 0) states_[i].layers |= LayerMask{1} << bodies_[i].layer;
         for (const Part& part : bodies_[i].parts) states_[i].layers |= LayerMask{1} << part.layer;
         update_bounding_radius(i);
-        most_parts = std::max(most_parts, bodies_[i].parts.size());
+        max_parts = std::max(max_parts, bodies_[i].parts.size());
         if (bodies_[i].driven) heaviest_ = std::max(heaviest_, bodies_[i].mass);
         shape_caches_.emplace_back().shapes.reserve(bodies_[i].parts.size() + 1);
     }
@@ -57,7 +57,7 @@ Physics::Physics(std::span<const Obstacle> obstacles, std::span<const Body> bodi
     near_.resize(n), root_.resize(n), members_.reserve(n), islands_.reserve(n), areas_.reserve(n);
     for (auto& near : near_) near.reserve(n);
     std::iota(root_.begin(), root_.end(), 0);
-    outlines_before_.reserve(most_parts), pushed_.reserve(bodies_.size());
+    outlines_before_.reserve(max_parts), pushed_.reserve(bodies_.size());
 }
 
 Physics::~Physics() = default;

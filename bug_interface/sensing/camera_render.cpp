@@ -46,11 +46,11 @@ void fill(const float* colour, std::size_t pixels, float* rgb) {
 
 /// The corners of a prism with four or eight sides as a camera sees it, m.
 struct Prism {
-    static constexpr std::size_t most_sides = 8, most_edges = 3 * most_sides;
-    static constexpr std::size_t most_cuts = most_sides + 2;  ///< edges that a plane cuts
+    static constexpr std::size_t max_sides = 8, max_edges = 3 * max_sides;
+    static constexpr std::size_t max_cuts = max_sides + 2;  ///< edges that a plane cuts
     std::size_t sides = 4;
     bool flat = false;  ///< whether there is only one polygon, `top`
-    std::array<Eigen::Vector3d, most_sides> top, bottom;
+    std::array<Eigen::Vector3d, max_sides> top, bottom;
 
     /// Contains `solid`, whose pose in the camera is `pose`; or what the camera sees of it.
     Prism(const Solid& solid, const Pose& pose) {
@@ -69,7 +69,7 @@ struct Prism {
         constexpr double octagon_x[] = {1, t, -t, -1, -1, -t, t, 1},
                          octagon_y[] = {t, 1, 1, t, -t, -1, -1, -t};
         const bool round = flat || solid.kind == ShapeKind::cylinder;
-        if (round) sides = most_sides;
+        if (round) sides = max_sides;
         for (std::size_t i = 0; i < sides; ++i) {
             const Eigen::Vector3d at = middle + (round ? octagon_x : square_x)[i] * axes.col(0) +
                                        (round ? octagon_y : square_y)[i] * axes.col(1);
@@ -312,10 +312,9 @@ bool Camera::add_window(const View& view, const VisualSolid& visual) {
     const Prism prism(solid, to_camera);
     // The edges of the part before the camera, in pixels to the right and down. All lines between the cuts
     // through a plane are inside the outline.
-    std::array<std::array<Eigen::Vector2d, 2>,
-               Prism::most_edges + Prism::most_cuts*(Prism::most_cuts - 1) / 2>
+    std::array<std::array<Eigen::Vector2d, 2>, Prism::max_edges + Prism::max_cuts*(Prism::max_cuts - 1) / 2>
         lines;
-    std::array<Eigen::Vector2d, Prism::most_cuts> cuts;
+    std::array<Eigen::Vector2d, Prism::max_cuts> cuts;
     std::size_t count = 0, cut = 0;
     Eigen::AlignedBox2d box;
     const auto pixel = [&](const Eigen::Vector3d& at) -> Eigen::Vector2d {

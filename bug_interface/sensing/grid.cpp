@@ -5,7 +5,7 @@
 namespace forage::bug {
 
 void Grid::reserve(std::size_t items) {
-    areas_.reserve(items), begin_.reserve((most_cells + 1) * (most_cells + 1) + 1), items_.reserve(4 * items);
+    areas_.reserve(items), begin_.reserve((max_cells + 1) * (max_cells + 1) + 1), items_.reserve(4 * items);
 }
 
 void Grid::assign(const std::vector<Area>& areas, double cell) {
@@ -16,7 +16,7 @@ void Grid::assign(const std::vector<Area>& areas, double cell) {
         all = {std::min(all.min_x, a.min_x), std::min(all.min_y, a.min_y), std::max(all.max_x, a.max_x),
                std::max(all.max_y, a.max_y)};
     const double width = all.max_x - all.min_x, height = all.max_y - all.min_y;
-    min_x_ = all.min_x, min_y_ = all.min_y, cell_ = std::max({cell, width / most_cells, height / most_cells});
+    min_x_ = all.min_x, min_y_ = all.min_y, cell_ = std::max({cell, width / max_cells, height / max_cells});
     columns_ = 1 + static_cast<int>(width / cell_), rows_ = 1 + static_cast<int>(height / cell_);
 
     const auto for_each_cell = [&](const Area& a, auto&& visit) {

@@ -50,7 +50,7 @@ class Grid {
     }
 
   private:
-    static constexpr int most_cells = 64;  ///< per axis
+    static constexpr int max_cells = 64;  ///< per axis
 
     static int index(double distance, double cell, int count) {
         return static_cast<int>(std::clamp(distance / cell, 0.0, count - 1.0));

@@ -14,11 +14,11 @@
 namespace forage::bug {
 namespace {
 
-constexpr std::uint64_t most_pixels = 4096 * 4096;  // a floor takes 4 bytes for each
+constexpr std::uint64_t max_pixels = 4096 * 4096;  // a floor takes 4 bytes for each
 // Texts and profiles may be compressed a thousandfold, and libpng expands all of them.
-constexpr std::uint64_t most_before_pixels = 64 << 10;
+constexpr std::uint64_t max_before_pixels = 64 << 10;
 
-/// Whether more than `most_before_pixels` bytes precede the first pixels. A chunk is its length, its name,
+/// Whether more than `max_before_pixels` bytes precede the first pixels. A chunk is its length, its name,
 /// its content and a checksum. libpng refuses files that are not PNG files or end too early.
 bool begins_late(std::istream& file) {
     constexpr std::uint64_t signature_size = 8, around_content = 12;
@@ -32,8 +32,8 @@ bool begins_late(std::istream& file) {
         std::uint64_t length = 0;
         for (int i = 0; i < 4; ++i) length = length << 8 | static_cast<unsigned char>(head[i]);
         at += length + around_content;
-        if (at > most_before_pixels)
-            return static_cast<std::uint64_t>(file.seekg(0, std::ios::end).tellg()) > most_before_pixels;
+        if (at > max_before_pixels)
+            return static_cast<std::uint64_t>(file.seekg(0, std::ios::end).tellg()) > max_before_pixels;
     }
     return false;
 }
@@ -49,11 +49,11 @@ struct PngFile {
         if (begins_late(file)) {
             problem = fmt::format(
                 "more than {} KiB of texts, profiles and the like precede its pixels; save it without them",
-                most_before_pixels >> 10);
+                max_before_pixels >> 10);
         } else if (!png_image_begin_read_from_file(&png, path.c_str())) {
             problem = png.message;
-        } else if (const auto pixels = std::uint64_t{png.width} * png.height; pixels > most_pixels) {
-            problem = fmt::format("it has {} pixels; the most are {}", pixels, most_pixels);
+        } else if (const auto pixels = std::uint64_t{png.width} * png.height; pixels > max_pixels) {
+            problem = fmt::format("it has {} pixels; the most are {}", pixels, max_pixels);
         }
     }
     ~PngFile() { png_image_free(&png); }

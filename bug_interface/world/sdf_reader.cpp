@@ -134,15 +134,15 @@ class Reader {
     /// any number. Reports an error when there are too many.
     bool fits(std::size_t links, const xml::Element& include) {
         links_ += links;
-        if (links_ > most_links && !too_many_) {
+        if (links_ > max_links && !too_many_) {
             too_many_ = true;  // once is enough
             diagnostics_.error(
                 include.where(),
                 fmt::format("with this <include> there are more than {} included models and links",
-                            most_links),
+                            max_links),
                 "does a model include others many times?");
         }
-        return links_ <= most_links;
+        return links_ <= max_links;
     }
 
     // ---- elements ----
@@ -231,7 +231,7 @@ class Reader {
     SdfSource in_;
     std::map<std::string, Content> contents_;  ///< contents of the model files that were read
     std::set<std::string> open_;               ///< model files that are being read
-    static constexpr std::size_t most_links = 10'000;
+    static constexpr std::size_t max_links = 10'000;
     std::size_t links_ = 0;  ///< number of links in all models that were included so far
     bool no_models_ = false, too_many_ = false;
 };

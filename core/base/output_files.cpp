@@ -94,8 +94,8 @@ void flush_directory(const std::string& path) {
 void write_file(const std::string& path, std::string_view text) {
     std::filesystem::path file = path;
     std::error_code ignored;
-    constexpr int most_links = 40;  // as the system follows them
-    for (int i = 0; i < most_links && std::filesystem::is_symlink(file, ignored); ++i)
+    constexpr int max_links = 40;  // as the system follows them
+    for (int i = 0; i < max_links && std::filesystem::is_symlink(file, ignored); ++i)
         file = file.parent_path() / std::filesystem::read_symlink(file, ignored);
     write_partial(file.string(), text);
     finish(file.string());

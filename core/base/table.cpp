@@ -8,7 +8,7 @@ namespace forage {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\n\v\f";
-constexpr std::size_t most_fields = std::size_t{1} << 24, longest_line = std::size_t{64} << 20,
+constexpr std::size_t max_fields = std::size_t{1} << 24, longest_line = std::size_t{64} << 20,
                       block_size = std::size_t{1} << 16;
 
 std::string_view trimmed(std::string_view text) {
@@ -95,7 +95,7 @@ void TableReader::split() {
     if (row_.empty()) return;
     const bool any = layout_ == Layout::blocks;  // several separators count as one
     constexpr std::string_view separators = " \t\r\v\f,;";
-    for (std::size_t at = 0; at <= row_.size() && fields_.size() <= most_fields;) {
+    for (std::size_t at = 0; at <= row_.size() && fields_.size() <= max_fields;) {
         if (any && (at = row_.find_first_not_of(separators, at)) == row_.npos) return;
         const auto rest = row_.substr(at);
         if (layout_ == Layout::csv && rest.starts_with('"')) {  // RFC 4180; a doubled quote stays doubled
@@ -114,8 +114,8 @@ void TableReader::split() {
         at = end + 1;
     }
     if (layout_ == Layout::list && fields_.back().empty()) fields_.pop_back();
-    if (fields_.size() > most_fields) {
-        fault(row_, fmt::format("more than {} fields in a row", most_fields));
+    if (fields_.size() > max_fields) {
+        fault(row_, fmt::format("more than {} fields in a row", max_fields));
         fields_.clear();
     }
 }

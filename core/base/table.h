@@ -63,7 +63,7 @@ class TableReader {
     }
 
     /// Whether there are a hundred faults, so that further ones are ignored.
-    bool full() const { return faults_.size() == most_faults; }
+    bool full() const { return faults_.size() == max_faults; }
     const std::shared_ptr<const SourceFile>& file() const { return source_; }
     bool failed() const { return !faults_.empty(); }
     /// Throws FileError with all faults, if there are any.
@@ -77,7 +77,7 @@ class TableReader {
     [[noreturn]] void refuse(std::string_view piece, std::string message, std::string_view hint);
 
   private:
-    static constexpr std::size_t most_faults = 100;
+    static constexpr std::size_t max_faults = 100;
     bool take_line();
     bool read_more();
     void split();

@@ -72,7 +72,7 @@ void Arbor::ellipse(Place c, int width, int height, const PointVisitor& visit) c
     }
 }
 
-double Arbor::most_points() const {
+double Arbor::max_points() const {
     const auto box = [this](int width, int height) {
         return std::min(width + 1.0, length(reach_x_)) * std::min(height + 1.0, length(reach_y_));
     };

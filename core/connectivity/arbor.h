@@ -22,7 +22,7 @@ class Arbor {
     void spread(Place centre, const std::function<void(int, double)>& visit);
 
     /// An upper bound on the number of cells around any centre, computed without listing them.
-    double most_points() const;
+    double max_points() const;
 
   private:
     using PointVisitor = std::function<void(int, int)>;

@@ -29,7 +29,7 @@ Synapses connect(const model::Connection& connection, const model::Topology& sou
                 RandomStream(seed, connection.id, arbor_stream));
 
     Synapses out;
-    const double points = arbor.most_points(), pairs = most_pairs(connection.pattern, source, target);
+    const double points = arbor.max_points(), pairs = most_pairs(connection.pattern, source, target);
     if (pairs * points > most) {
         diagnostics.error(
             connection.at,

@@ -82,13 +82,13 @@ std::optional<Regular> regular(const model::Connection& c, const model::Topology
             source->height != target->height)
             return {};
         out.width = source->width, out.height = source->height;
-        constexpr double most_taps = 4096;  // with more taps, a list is as fast
+        constexpr double max_taps = 4096;  // with more taps, a list is as fast
         const auto* rect = std::get_if<model::RectArbor>(&c.arborization.shape);
         const auto* window = std::get_if<model::RectWindowArbor>(&c.arborization.shape);
         const double extent = rect     ? (rect->width + 1.0) * (rect->height + 1.0)
                               : window ? (window->outer_width + 1.0) * (window->outer_height + 1.0)
                                        : 0;
-        if (extent == 0 || extent > most_taps) return {};
+        if (extent == 0 || extent > max_taps) return {};
         places = offsets(c.arborization);
         if (!receptive) turn_round(places);
         std::erase_if(places, [&](const Offset& o) {

@@ -59,8 +59,8 @@ class Hdf5Recording final : public Recording {
           shape_(shape_of(set_)),
           cycles_(shape_of(cycle_)) {
         if (cycles_.size() != 1 || (shape_.size() != 1 && shape_.size() != 3) ||
-            (shape_.size() == 3 && (shape_[1] < 1 || shape_[2] < 1 || shape_[1] > most_cells ||
-                                    shape_[2] > most_cells || shape_[1] * shape_[2] > most_cells)))
+            (shape_.size() == 3 && (shape_[1] < 1 || shape_[2] < 1 || shape_[1] > max_cells ||
+                                    shape_[2] > max_cells || shape_[1] * shape_[2] > max_cells)))
             throw std::runtime_error("'" + place + "' is not cells over cycles");
         what_.name = text_attribute(set_, "name");
         what_.label = text_attribute(set_, "label");
@@ -96,7 +96,7 @@ class Hdf5Recording final : public Recording {
     }
 
   private:
-    static constexpr hsize_t most_cells = 1 << 24;
+    static constexpr hsize_t max_cells = 1 << 24;
 
     std::shared_ptr<Hdf5Handle> file_;
     Hdf5Handle cycle_, set_;

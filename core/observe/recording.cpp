@@ -25,7 +25,7 @@ std::filesystem::path final_name(const std::string& path) {
 }
 
 /// The largest accepted number of cells. A damaged file may contain any number.
-constexpr std::int64_t most_cells = 1 << 24;
+constexpr std::int64_t max_cells = 1 << 24;
 
 /// The column and row of a cell with the name "x3_y1".
 std::optional<std::pair<int, int>> parse_place(std::string_view name) {
@@ -57,7 +57,7 @@ class CsvRecording final : public Recording {
             const auto [x, y] = *first;
             const auto width = last ? std::int64_t{last->first} - x + 1 : 0,
                        height = last ? std::int64_t{last->second} - y + 1 : 0;
-            if (x < 1 || y < 1 || width < 1 || height < 1 || width > most_cells || height > most_cells ||
+            if (x < 1 || y < 1 || width < 1 || height < 1 || width > max_cells || height > max_cells ||
                 width * height != static_cast<std::int64_t>(columns))
                 no_recording(path, "its columns are not those of a group");
             what_.cells = {x, y, static_cast<int>(width), static_cast<int>(height), {}};
@@ -137,7 +137,7 @@ class NpyRecording final : public Recording {
         if (!what_.mean) height = take_number<int>(rest), width = take(", ") ? take_number<int>(rest) : 0;
         if (!known || !(height > 0) || !(width > 0) || !go_behind("'shape': ("))
             no_recording(path, "its records are not a cycle and numbers");
-        if (std::int64_t{*width} * *height > most_cells) no_recording(path, "it has too many cells");
+        if (std::int64_t{*width} * *height > max_cells) no_recording(path, "it has too many cells");
         what_.cells = {1, 1, *width, *height, {}};
         const auto rows = take_number<std::uint64_t>(rest);
         if (!rows) no_recording(path, "it does not say how many rows it has");

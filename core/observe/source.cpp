@@ -12,7 +12,7 @@ namespace forage::observe {
 namespace {
 
 constexpr std::string_view mean_prefix = "mean:";
-constexpr double most_synapses_recorded = 1 << 24;  ///< numbers in a row that recordings are read with
+constexpr double max_synapses_recorded = 1 << 24;  ///< numbers in a row that recordings are read with
 
 std::string interval(int first, int count) {
     return count == 1 ? fmt::format("{}", first) : fmt::format("{}..{}", first, first + count - 1);
@@ -153,7 +153,7 @@ std::optional<Part> find_synapse_part(const engine::Layout& layout, const Column
         return std::nullopt;
     }
     if (const double numbers = double{1} * out->cells.width * out->cells.height;
-        !out->mean && numbers > most_synapses_recorded) {
+        !out->mean && numbers > max_synapses_recorded) {
         context.error(
             source.column.at,
             fmt::format("'{}' is a matrix of {:.0f} numbers per cycle", column.name, numbers),

@@ -11,7 +11,7 @@
 namespace forage::plugin {
 namespace {
 
-constexpr int most_frames = 64;
+constexpr int max_frames = 64;
 
 struct Watched {
     std::string path;      ///< as given
@@ -22,8 +22,8 @@ alignas(16) char stack[64 * 1024];  // a stack that has overflowed cannot be use
 
 /// The plugin in whose code the program is; null when it is in none.
 const Watched* plugin_in_use() {
-    void* frames[most_frames];
-    const int count = backtrace(frames, most_frames);
+    void* frames[max_frames];
+    const int count = backtrace(frames, max_frames);
     for (int i = 0; i < count; ++i) {
         Dl_info where{};
         if (!dladdr(frames[i], &where) || !where.dli_fname) continue;

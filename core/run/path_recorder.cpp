@@ -9,7 +9,7 @@
 
 namespace forage {
 
-constexpr std::size_t most_points = 1'000'000;
+constexpr std::size_t max_points = 1'000'000;
 
 PathRecorder::PathRecorder(const Environment& environment, std::size_t robot, std::string file)
     : robot_(robot), file_(std::move(file)) {
@@ -22,7 +22,7 @@ void PathRecorder::add(std::uint64_t cycle, const Pose2& pose, bool always) {
         if (!always && std::hypot(pose.x - last.x, pose.y - last.y) < spacing_) return;
     }
     current_.points.push_back({cycle, pose});
-    if (++count_ > most_points) thin();
+    if (++count_ > max_points) thin();
 }
 
 void PathRecorder::after_cycle(RunView& run) {

@@ -16,9 +16,9 @@ namespace {
 
 using Owner = model::Assignment::Owner;
 
-constexpr double most_per_second = 100;
-constexpr int most_per_cycle = 64;
-constexpr std::size_t most_kept = 1000;
+constexpr double max_per_second = 100;
+constexpr int max_per_cycle = 64;
+constexpr std::size_t max_kept = 1000;
 constexpr int wait_ms = 100;
 
 /// An item that a command means, with the type that has its parameters; null for an item without one.
@@ -132,8 +132,8 @@ void RemoteControl::carry_out(const RemoteCommand& command, Run& run, Diagnostic
                 diagnostics.error({}, fmt::format("nothing of this type is called '{}'", command.name));
             else if (!plot)
                 diagnostics.error({}, "this run writes no pictures");
-            else if (pictures_.size() >= most_kept)
-                diagnostics.error({}, fmt::format("this run has {} pictures already", most_kept));
+            else if (pictures_.size() >= max_kept)
+                diagnostics.error({}, fmt::format("this run has {} pictures already", max_kept));
             else
                 for (const auto& item : items) pictures_.push_back(plot(command, *item.id, run));
         }
@@ -143,20 +143,20 @@ void RemoteControl::carry_out(const RemoteCommand& command, Run& run, Diagnostic
 /// Whether one more command may be carried out now. The allowance grows with the clock.
 bool RemoteControl::may_act() {
     const auto now = std::chrono::steady_clock::now();
-    tokens_ = std::min(most_per_second,
-                       tokens_ + most_per_second * std::chrono::duration<double>(now - filled_).count());
+    tokens_ = std::min(max_per_second,
+                       tokens_ + max_per_second * std::chrono::duration<double>(now - filled_).count());
     filled_ = now;
     if (tokens_ < 1) return ++dropped_, false;
     tokens_ -= 1;
     if (dropped_ > 0 && tell)
-        tell(fmt::format("{} datagrams were dropped: at most {} a second are read", dropped_,
-                         most_per_second));
+        tell(
+            fmt::format("{} datagrams were dropped: at most {} a second are read", dropped_, max_per_second));
     dropped_ = 0;
     return true;
 }
 
 void RemoteControl::obey(Run& run) {
-    for (int i = 0; i < most_per_cycle; ++i) {
+    for (int i = 0; i < max_per_cycle; ++i) {
         const auto datagram = socket_.receive(longest_remote_command + 1);
         if (!datagram) return;
         if (!may_act()) continue;
@@ -173,7 +173,7 @@ void RemoteControl::obey(Run& run) {
         } catch (...) {
             diagnostics.error({}, current_exception_message());
         }
-        if (!diagnostics.failed() && obeyed_.size() < most_kept) obeyed_.push_back({run.cycle(), text});
+        if (!diagnostics.failed() && obeyed_.size() < max_kept) obeyed_.push_back({run.cycle(), text});
         if (!tell) continue;
         if (!diagnostics.failed()) tell(fmt::format("cycle {}: {}", run.cycle(), text));
         for (const auto& d : diagnostics.all())

@@ -11,10 +11,10 @@ namespace forage {
 namespace {
 
 constexpr double default_seconds = 60;
-constexpr double most_cycles = 1e15;
+constexpr double max_cycles = 1e15;
 
 std::uint64_t cycles_in(double seconds, double seconds_per_cycle) {
-    return static_cast<std::uint64_t>(std::min(std::ceil(seconds / seconds_per_cycle - 1e-9), most_cycles));
+    return static_cast<std::uint64_t>(std::min(std::ceil(seconds / seconds_per_cycle - 1e-9), max_cycles));
 }
 
 void check_trials(const RunLength& length, const Run& run, Diagnostics& diagnostics) {

@@ -129,7 +129,7 @@ std::optional<plot::Picture> draw_occupancy(const Results& results, const bug::W
         diagnostics.error({}, fmt::format("'{}' holds no paths of a robot", results.path),
                           results.experiment ? "write <plot what=\"trajectory\"/> in the experiment"
                                              : "runs in a world have a trajectory.csv");
-    else if (conditions.size() > plot::most_maps)
+    else if (conditions.size() > plot::max_maps)
         diagnostics.error(
             {}, fmt::format("'occupancy': {} conditions are too many for a picture", conditions.size()),
             "draw some of them, with --where 'PARAMETER=VALUE'");

@@ -21,9 +21,9 @@ namespace {
 namespace fs = std::filesystem;
 using plot::PlotSpec;
 
-constexpr std::size_t most_lines = 10;  ///< that can be told apart
+constexpr std::size_t max_lines = 10;  ///< that can be told apart
 constexpr std::size_t unreadable_lines = 100;
-constexpr std::size_t most_blocks = 25;  ///< of trials, in a picture of learning
+constexpr std::size_t max_blocks = 25;  ///< of trials, in a picture of learning
 
 /// Places of values on an axis, and whether they are logarithms. On a logarithmic axis, 0 is at the left, and
 /// the axis is broken at `gap`.
@@ -161,10 +161,10 @@ std::vector<std::string> usual_plots(const RunTable& table, const std::string& d
                    return fs::exists(fmt::format("{}/runs/{}/{}", directory, row.run, file));
                });
     };
-    if (table.trials && conditions <= most_lines &&
+    if (table.trials && conditions <= max_lines &&
         (fs::exists(directory + "/trials.csv") || any("trials.csv")))
         out.emplace_back("learning");
-    if (conditions <= plot::most_maps && any("trajectory.csv")) out.emplace_back("occupancy");
+    if (conditions <= plot::max_maps && any("trajectory.csv")) out.emplace_back("occupancy");
     return out;
 }
 
@@ -200,9 +200,9 @@ std::optional<plot::Picture> draw_measure(const PlotSpec& spec, const RunTable& 
     if (!as_heat && lines_of(axes) > unreadable_lines)
         return refuse(fmt::format("{} lines are too many for a picture", lines_of(axes)),
                       fmt::format("draw a part: --where '{}'", example_of(axes[1])));
-    if (!as_heat && lines_of(axes) > most_lines)
+    if (!as_heat && lines_of(axes) > max_lines)
         diagnostics.warning(
-            {}, fmt::format("'{}' has {} lines in {} colours", spec.text, lines_of(axes), most_lines),
+            {}, fmt::format("'{}' has {} lines in {} colours", spec.text, lines_of(axes), max_lines),
             fmt::format("draw a part: --where '{}'", example_of(axes[1])));
     return as_heat ? heat(table, axes, measure, title) : curve(table, axes, measure, title);
 }
@@ -220,7 +220,7 @@ std::vector<RunSeries> run_series(const RunTable& table, const std::string& dire
 std::optional<plot::Picture> draw_learning(const PlotSpec& spec, const std::vector<RunSeries>& series,
                                            const std::string& table, const std::string& title,
                                            const std::string& part, Diagnostics& diagnostics) {
-    if (series.size() > most_lines) {
+    if (series.size() > max_lines) {
         diagnostics.error(
             {}, fmt::format("'{}': {} conditions are too many for a picture", spec.text, series.size()),
             "draw some of them, with --where 'PARAMETER=VALUE'");
@@ -245,7 +245,7 @@ std::optional<plot::Picture> draw_learning(const PlotSpec& spec, const std::vect
                           "a world that puts its robot back to the start has trials");
         return std::nullopt;
     }
-    const std::size_t block = (longest + most_blocks - 1) / most_blocks;
+    const std::size_t block = (longest + max_blocks - 1) / max_blocks;
     plot::LinesPlot out{title, {}, "trial", spec.what.empty() ? "share of trials at the target" : spec.what,
                         {},    {}, {}};
     std::vector<std::optional<Estimate>> estimates;

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_rows = 200, most_columns = 40, most_pictures = 500;
+constexpr std::size_t max_rows = 200, max_columns = 40, max_pictures = 500;
 
 /// A file name as a relative URL.
 std::string address(std::string_view name) {
@@ -49,17 +49,17 @@ std::string table(const fs::path& path) {
     TableReader in(open_file(path.string()), path.string());
     std::string rows, first;
     std::size_t count = 0;
-    for (; count <= most_rows && in.next(); ++count) {
+    for (; count <= max_rows && in.next(); ++count) {
         if (count == 0) first = in.row();
         rows += "<tr>";
-        for (std::size_t i = 0; i < std::min(in.fields().size(), most_columns); ++i)
+        for (std::size_t i = 0; i < std::min(in.fields().size(), max_columns); ++i)
             rows += fmt::format("<{0}>{1}</{0}>", count == 0 ? "th" : "td", xml::encoded(in.fields()[i]));
         rows += "</tr>\n";
     }
     std::string out = fmt::format("<h3><a href=\"{}\">{}</a></h3>\n", address(name), xml::encoded(name));
     if (first.starts_with("cycle,") || name.starts_with("trajectory")) return out;
     out += "<table>\n" + rows + "</table>\n";
-    if (count > most_rows) out += fmt::format("<p>The first {} rows.</p>\n", most_rows);
+    if (count > max_rows) out += fmt::format("<p>The first {} rows.</p>\n", max_rows);
     return out;
 }
 
@@ -120,9 +120,9 @@ table {{ border-collapse: collapse; font-size: 13px; }} th, td {{ border: 1px so
     if (!others.empty() || !folders.empty()) out += "</ul>\n";
     const auto below = pictures_below(directory);
     if (!below.empty()) out += fmt::format("<h2>Pictures of the runs</h2>\n");
-    for (std::size_t i = 0; i < std::min(below.size(), most_pictures); ++i) out += picture(below[i]);
-    if (below.size() > most_pictures)
-        out += fmt::format("<p>The first {} of {} pictures.</p>\n", most_pictures, below.size());
+    for (std::size_t i = 0; i < std::min(below.size(), max_pictures); ++i) out += picture(below[i]);
+    if (below.size() > max_pictures)
+        out += fmt::format("<p>The first {} of {} pictures.</p>\n", max_pictures, below.size());
     return out + "</body></html>\n";
 }
 

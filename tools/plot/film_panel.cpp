@@ -15,7 +15,7 @@ namespace forage::plot {
 namespace {
 
 constexpr double clock_height = 30, name_height = 14, picture_aspect = 28.0 / 32;
-constexpr std::size_t most_with_rays = 4, rows_of_rays = 3;
+constexpr std::size_t max_with_rays = 4, rows_of_rays = 3;
 
 /// The layout of a ray sensor's bars; their height shows the activity of the cells.
 struct Bars {
@@ -36,9 +36,9 @@ void draw_bars(Canvas& canvas, const std::vector<double>& cells, const Colour& c
 }  // namespace
 
 double FilmPanel::part_height() const {
-    const double rays = world_.bugs() > most_with_rays ? 0.0
-                                                       : static_cast<double>(rows_of_rays) *
-                                                             (single() ? large_bars : small_bars).total();
+    const double rays = world_.bugs() > max_with_rays ? 0.0
+                                                      : static_cast<double>(rows_of_rays) *
+                                                            (single() ? large_bars : small_bars).total();
     return name_height + part_width() * picture_aspect + rays + 8;
 }
 
@@ -56,7 +56,7 @@ void FilmPanel::for_each_robot(double x, double y, Draw draw) {
 
 template <class Draw>
 void FilmPanel::for_each_ray_sensor(std::size_t robot, double y, Draw draw) {
-    if (world_.bugs() > most_with_rays) return;
+    if (world_.bugs() > max_with_rays) return;
     const auto& sensors = world_.robot(robot).sensors;
     const auto& seen = sensors.snapshot();
     const Bars size = single() ? large_bars : small_bars;

@@ -16,9 +16,9 @@ Picture heat_map(const HeatMap& map) {
     for (const auto& n : map.x_names) wide = std::max(wide, measure.canvas().width_of(n, 12));
     for (const auto& n : map.y_names) beside = std::max(beside, measure.canvas().width_of(n, 12));
     // Up to 40 values stand side by side with their names; of more, some have names.
-    const int most_values = std::max(columns, rows);
-    const double cell = most_values > 40 ? std::max(1000.0 / most_values, 1.0)
-                                         : std::clamp(std::max(560.0 / most_values, wide + 10), 12.0, 90.0);
+    const int max_values = std::max(columns, rows);
+    const double cell = max_values > 40 ? std::max(1000.0 / max_values, 1.0)
+                                        : std::clamp(std::max(560.0 / max_values, wide + 10), 12.0, 90.0);
     const double top = 62, title = measure.canvas().width_of(map.x_title, 13);
     const double left = std::max(beside + 50, 12 + (title - cell * columns) / 2);
     const Box box{left, top, cell * columns, cell * rows};
@@ -28,7 +28,7 @@ Picture heat_map(const HeatMap& map) {
     for (const auto& e : map.cells)
         if (e) scale.include(e->mean), most = std::max(most, e->count);
     const auto ticks = [&](const std::vector<std::string>& names, double size) {
-        const auto step = most_values > 40 ? static_cast<std::size_t>(std::ceil(size / cell)) : 1;
+        const auto step = max_values > 40 ? static_cast<std::size_t>(std::ceil(size / cell)) : 1;
         std::vector<std::pair<double, std::string>> out;
         for (std::size_t i = 0; i < names.size(); i += step)
             out.emplace_back(static_cast<double>(i + 1), names[i]);

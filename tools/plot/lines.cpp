@@ -13,7 +13,7 @@ namespace forage::plot {
 namespace {
 
 constexpr double lines_left = 84, lines_top = 62, lines_width = 560, lines_height = 340, lines_bottom = 50;
-constexpr std::size_t most_bars = 20;  // a line of more points has a band
+constexpr std::size_t max_bars = 20;  // a line of more points has a band
 
 Interval with_margin(Interval i, bool zero) {
     if (i.low > i.high) return {0, 1};
@@ -23,7 +23,7 @@ Interval with_margin(Interval i, bool zero) {
 }
 
 void draw_interval(Canvas& canvas, const Axes& axes, const LinesPlot::Line& line, const Colour& colour) {
-    if (line.points.size() <= most_bars) {
+    if (line.points.size() <= max_bars) {
         for (const auto& p : line.points) {
             if (!p.y) continue;
             const double x = axes.px(p.x), low = axes.py(p.y->low), high = axes.py(p.y->high);
@@ -58,7 +58,7 @@ void draw_line(Canvas& canvas, const Axes& axes, const LinesPlot::Line& line, st
         pen_down = p.y.has_value();
     }
     cairo_stroke(c);
-    if (line.points.size() > most_bars) return;
+    if (line.points.size() > max_bars) return;
     for (const auto& p : line.points) {
         if (!p.y) continue;
         cairo_arc(c, axes.px(p.x), axes.py(p.y->mean), 3.4, 0, 2 * M_PI);
@@ -88,7 +88,7 @@ void draw_missing(Canvas& canvas, const Axes& axes, const LinesPlot& plot, std::
     std::map<double, int> crosses;
     for (std::size_t i = 0; i < plot.lines.size(); ++i) {
         const auto& line = plot.lines[i];
-        if (!has_numbers(line) || line.points.size() > most_bars) continue;
+        if (!has_numbers(line) || line.points.size() > max_bars) continue;
         for (const auto& p : line.points)
             if (!p.y)
                 draw_cross(canvas, axes.px(p.x), axes.box.bottom() - 8 - 9 * crosses[p.x]++, category(i));
@@ -113,7 +113,7 @@ Picture lines_plot(const LinesPlot& plot) {
             x = {std::min(x.low, p.x), std::max(x.high, p.x)};
             if (p.y) y = {std::min(y.low, p.y->low), std::max(y.high, p.y->high)};
             if (p.y) most = std::max(most, p.y->count);
-            missing = missing || (any && !p.y && line.points.size() <= most_bars);
+            missing = missing || (any && !p.y && line.points.size() <= max_bars);
         }
     }
     const bool legend = plot.lines.size() > 1;

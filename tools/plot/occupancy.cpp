@@ -157,12 +157,12 @@ Picture occupancy_plot(const bug::World& world, const std::vector<PathsOf>& cond
     const WorldMap first(world, all, side, 0, 0);
     Measure measure;
     std::vector<std::vector<std::string>> names;
-    std::size_t most_lines_of_name = 0;
+    std::size_t max_lines_of_name = 0;
     for (const auto& c : conditions) {
         names.push_back(name_lines(measure.canvas(), c.name, first.width() + 40));
-        most_lines_of_name = std::max(most_lines_of_name, names.back().size());
+        max_lines_of_name = std::max(max_lines_of_name, names.back().size());
     }
-    const double heading_of_panel = one ? 0 : 20 + name_line * static_cast<double>(most_lines_of_name),
+    const double heading_of_panel = one ? 0 : 20 + name_line * static_cast<double>(max_lines_of_name),
                  top = occupancy_top + heading_of_panel;
     const auto& view = first.view();
     const double step_x = occupancy_left + first.width() + 12,

@@ -14,7 +14,7 @@ struct PathsOf {
     std::vector<Path> paths;
 };
 /// The largest number of maps in an occupancy plot.
-inline constexpr std::size_t most_maps = 24;
+inline constexpr std::size_t max_maps = 24;
 
 /// A map of the world per condition, in which the colour of a cell is the share of the paths that crossed it.
 /// All maps have the same scale. White lines are the mean paths from each start pose: the mean places after

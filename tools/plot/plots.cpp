@@ -13,9 +13,9 @@
 namespace forage::plot {
 namespace {
 
-constexpr std::size_t most_frames = 120;  ///< largest number in an animation without given cycles
-constexpr std::size_t most_panels = 400;
-constexpr std::size_t most_marks = 60;
+constexpr std::size_t max_frames = 120;  ///< largest number in an animation without given cycles
+constexpr std::size_t max_panels = 400;
+constexpr std::size_t max_marks = 60;
 constexpr double seconds_per_frame = 0.12;
 constexpr double film_frame = 0.1;  ///< s of the world, about
 
@@ -25,8 +25,8 @@ RowPlot::RowPlot(PlotSpec spec, const observe::Recorded& what, const model::Syst
     : spec_(std::move(spec)), what_(what) {
     if (spec_.kind == PlotSpec::Kind::wiring) wiring_ = wiring_of(spec_, *system);
     if (spec_.kind != PlotSpec::Kind::time) return;
-    const bool as_lines = what_.size() <= most_lines;
-    cells_per_row_ = (what_.size() + most_rows - 1) / most_rows;
+    const bool as_lines = what_.size() <= max_lines;
+    cells_per_row_ = (what_.size() + max_rows - 1) / max_rows;
     for (std::size_t i = 0; i < what_.size(); i += cells_per_row_) {
         if (!as_lines) {  // rows have no labels
             curves_.emplace_back("", row_bins);
@@ -58,11 +58,11 @@ void RowPlot::add(std::uint64_t cycle, std::span<const double> numbers) {
 
 void RowPlot::add_frame(std::uint64_t cycle, std::span<const double> numbers) {
     if (!spec_.cycles.empty()) {
-        if (frames_.size() == most_panels)
+        if (frames_.size() == max_panels)
             throw std::runtime_error(
                 fmt::format("'{}' has more than {} pictures: choose a larger step, such as "
                             "'@0..10000/100'",
-                            spec_.text, most_panels));
+                            spec_.text, max_panels));
         frames_.push_back({cycle, {numbers.begin(), numbers.end()}});
     } else if (spec_.kind == PlotSpec::Kind::space) {  // the last one
         frames_.resize(1);
@@ -70,7 +70,7 @@ void RowPlot::add_frame(std::uint64_t cycle, std::span<const double> numbers) {
         frames_[0].values.assign(numbers.begin(), numbers.end());
     } else if ((rows_ - 1) % keep_every_ == 0) {
         frames_.push_back({cycle, {numbers.begin(), numbers.end()}});
-        if (frames_.size() < most_frames) return;
+        if (frames_.size() < max_frames) return;
         for (std::size_t i = 1; 2 * i < frames_.size(); ++i) frames_[i] = std::move(frames_[2 * i]);
         frames_.resize((frames_.size() + 1) / 2);
         keep_every_ *= 2;
@@ -93,7 +93,7 @@ std::string RowPlot::draw(Format format, const PlotContext& context) const {
         p.title = title, p.subtitle = context.run, p.quantity = quantity;
         const model::Region& cells = what_.cells;
         const bool places = cells.height > 1 && !what_.numbered;
-        const bool pairs = places || (what_.size() <= most_lines && !what_.numbered);
+        const bool pairs = places || (what_.size() <= max_lines && !what_.numbered);
         p.cells = what_.synapses ? "synapse (source, target)" : pairs ? "cell (column, row)" : "cell";
         if (!places) p.first_cell = cells.x;
         for (int row = 0; places && row < cells.height; ++row)
@@ -101,7 +101,7 @@ std::string RowPlot::draw(Format format, const PlotContext& context) const {
         p.curves = curves_;
         p.cells_per_row = cells_per_row_;
         p.seconds_per_cycle = context.seconds_per_cycle;
-        if (context.trials.size() > 1 && context.trials.size() <= most_marks)
+        if (context.trials.size() > 1 && context.trials.size() <= max_marks)
             p.marks = context.trials, p.mark_name = "a trial begins";
         return render(time_plot(p), format);
     }

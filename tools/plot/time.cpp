@@ -194,7 +194,7 @@ void Curve::add(double cycle, double value) {
         join(bins_.back(), point);
     else
         bins_.push_back(point);
-    if (bins_.size() <= most_bins_) return;
+    if (bins_.size() <= max_bins_) return;
     for (std::size_t i = 0; 2 * i + 1 < bins_.size(); ++i) {
         bins_[i] = bins_[2 * i];
         join(bins_[i], bins_[2 * i + 1]);
@@ -205,8 +205,6 @@ void Curve::add(double cycle, double value) {
     per_bin_ *= 2;
 }
 
-Picture time_plot(const TimePlot& plot) {
-    return plot.curves.size() <= most_lines ? lines(plot) : rows(plot);
-}
+Picture time_plot(const TimePlot& plot) { return plot.curves.size() <= max_lines ? lines(plot) : rows(plot); }
 
 }  // namespace forage::plot

@@ -13,12 +13,12 @@
 
 namespace forage::plot {
 
-/// A curve in bounded memory. When there are more than `most_bins` points, neighbours are joined to bins,
+/// A curve in bounded memory. When there are more than `max_bins` points, neighbours are joined to bins,
 /// which keep the first, last, smallest and largest value, so that no peak is lost.
 class Curve {
   public:
-    explicit Curve(std::string name, std::size_t most_bins = 4000)
-        : name_(std::move(name)), most_bins_(most_bins) {}
+    explicit Curve(std::string name, std::size_t max_bins = 4000)
+        : name_(std::move(name)), max_bins_(max_bins) {}
     void add(double cycle, double value);
 
     struct Bin {
@@ -35,15 +35,15 @@ class Curve {
 
   private:
     std::string name_;
-    std::size_t most_bins_;
+    std::size_t max_bins_;
     std::vector<Bin> bins_;
     double per_bin_ = 1;
 };
 
 /// The largest number of curves that are drawn as lines; more curves are drawn as rows of colours.
-inline constexpr std::size_t most_lines = 10;
+inline constexpr std::size_t max_lines = 10;
 /// The largest number of rows of a picture. When there are more cells, neighbours share a row.
-inline constexpr std::size_t most_rows = 1000;
+inline constexpr std::size_t max_rows = 1000;
 /// The largest number of bins of a row: one per pixel.
 inline constexpr std::size_t row_bins = 1520;
 

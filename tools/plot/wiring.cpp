@@ -54,12 +54,10 @@ void draw_field(Canvas& canvas, const WiringPlot& plot, std::span<const double> 
 
 Picture drawn_with(const ColourScale& scale, const WiringPlot& plot, std::vector<double> fields) {
     constexpr double left = 14, top = 76, bottom = 34, bar_gap = 20, bar_width = 14;  // pixels
-    constexpr int most_pixels = 640, largest_cell = 22, smallest_cell = 3;
+    constexpr int max_pixels = 640, largest_cell = 22, smallest_cell = 3;
     constexpr double frame = 6;  // between two panels
     const GroupShape &source = plot.source_shape, &target = plot.target_shape;
-    const auto side = [&](int panels, int cells) {
-        return (most_pixels - panels * frame) / (panels * cells);
-    };
+    const auto side = [&](int panels, int cells) { return (max_pixels - panels * frame) / (panels * cells); };
     const double cell = std::min(std::floor(std::min(side(target.width, source.width),  //
                                                      side(target.height, source.height))),
                                  double(largest_cell));

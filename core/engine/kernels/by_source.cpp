@@ -17,12 +17,12 @@ namespace {
 
 typedef double Lanes __attribute__((vector_size(SourceLayout::lanes * sizeof(double))));  // NOLINT
 
-constexpr int most_together = 4;
+constexpr int max_together = 4;
 /// Sources whose weights are added together, each in its turn, so that sums are read and written once.
 struct Together {
-    const double* weights[most_together];
-    const double* next[most_together];  ///< what is read afterwards: fetched, as no pattern tells its place
-    double activity[most_together];
+    const double* weights[max_together];
+    const double* next[max_together];  ///< what is read afterwards: fetched, as no pattern tells its place
+    double activity[max_together];
 };
 
 /// Where the weight is NaN there is no synapse.
@@ -48,7 +48,7 @@ FORAGE_SIMD void add_one_source(const Together& from, Index n, double* sums) {
     add_sources<1>(from, n, sums);
 }
 FORAGE_SIMD void add_four_sources(const Together& from, Index n, double* sums) {
-    add_sources<most_together>(from, n, sums);
+    add_sources<max_together>(from, n, sums);
 }
 
 FORAGE_SIMD void scale(const double* from, Index stride, double gain, Index n, double* to) {
@@ -78,9 +78,9 @@ class BySource final : public SharedKernel {
     }
     void add(const Workspace& workspace, double* target, Part part) const override {
         // The frame is divided by target cells, so that the sums of each stretch stay in the nearest cache.
-        constexpr Index lanes = SourceLayout::lanes, most_slots = 2048;
+        constexpr Index lanes = SourceLayout::lanes, max_slots = 2048;
         const Index grains = (layout_.target.cells + lanes - 1) / lanes,
-                    step = std::max<Index>(1, most_slots / (lanes * layout_.ring)),
+                    step = std::max<Index>(1, max_slots / (lanes * layout_.ring)),
                     last = static_cast<Index>(part.last(grains));
         for (Index grain = static_cast<Index>(part.first(grains)); grain < last; grain += step)
             add_cells(static_cast<const Work&>(workspace), grain * lanes,
@@ -139,8 +139,8 @@ class BySource final : public SharedKernel {
         Together together;
         int k = 0;
         if (layout_.dense)
-            for (; k + most_together <= count; k += most_together) {
-                for (int i = 0; i < most_together; ++i) take(together, i, k + i, most_together);
+            for (; k + max_together <= count; k += max_together) {
+                for (int i = 0; i < max_together; ++i) take(together, i, k + i, max_together);
                 add_four_sources(together, cells.last_slot - cells.first_slot, &w.sums[cells.first_slot]);
             }
         for (; k < count; ++k) {
@@ -171,7 +171,7 @@ class BySource final : public SharedKernel {
 }  // namespace
 
 std::unique_ptr<Kernel> make_by_source(const ByTarget& s, GroupShape source, GroupShape target) {
-    constexpr double most_places = 1.5;                       // per synapse
+    constexpr double max_places = 1.5;                        // per synapse
     constexpr std::size_t least_dense = 8, least_local = 32;  // synapses per source; each source has its cost
     const auto sources = static_cast<std::size_t>(source.cells);
     const auto alike = [](const auto& all) {
@@ -180,7 +180,7 @@ std::unique_ptr<Kernel> make_by_source(const ByTarget& s, GroupShape source, Gro
     if (s.pre.size() < least_dense * sources || !alike(s.delay) || alike(s.factor) ||
         !std::all_of(s.factor.begin(), s.factor.end(), [](double f) { return std::isfinite(f); }))
         return nullptr;
-    auto layout = lay_out_by_source(s, source, target, most_places);
+    auto layout = lay_out_by_source(s, source, target, max_places);
     if (!layout || (!layout->dense && s.pre.size() < least_local * sources)) return nullptr;
     return std::make_unique<BySource>(std::move(*layout), s);
 }

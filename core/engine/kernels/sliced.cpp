@@ -18,10 +18,10 @@
 namespace forage::engine {
 namespace {
 
-constexpr std::size_t slice_lanes = 8, half_slice = slice_lanes / 2, most_panel_cells = 8192;
+constexpr std::size_t slice_lanes = 8, half_slice = slice_lanes / 2, max_panel_cells = 8192;
 /// Activities of a block, for all delays: 20 KB, which leave room in the nearest cache for what passes by.
 constexpr std::size_t block_places = 2560;
-constexpr std::size_t most_delays = 16;
+constexpr std::size_t max_delays = 16;
 
 /// Slices of a tile that follow each other and are of the same length.
 struct SliceRun {
@@ -111,7 +111,7 @@ std::size_t divided_up(std::size_t n, std::size_t by) { return (n + by - 1) / by
 std::size_t cells_of_panel(std::size_t targets) {
     constexpr std::size_t least = 256, together = 8;
     const std::size_t panels =
-        together * std::max<std::size_t>(1, divided_up(targets, together * most_panel_cells));
+        together * std::max<std::size_t>(1, divided_up(targets, together * max_panel_cells));
     return std::max(least, divided_up(divided_up(targets, panels), slice_lanes) * slice_lanes);
 }
 
@@ -172,7 +172,7 @@ class Sliced final : public SharedKernel {
     }
 
     void add(const Workspace& scaled, double* target, Part part) const override {
-        double sums[most_panel_cells + 1];
+        double sums[max_panel_cells + 1];
         const std::size_t panels = panels_.size() - 1;
         for (std::size_t p = part.first(panels); p < part.last(panels); ++p) {
             const auto &panel = panels_[p], &next = panels_[p + 1];
@@ -256,7 +256,7 @@ std::unique_ptr<Kernel> make_sliced(const ByTarget& s, int source_cells) {
     for (const int d : s.delay)
         if (std::find(delays.begin(), delays.end(), d) == delays.end()) {
             delays.push_back(d);
-            if (delays.size() > most_delays) return nullptr;
+            if (delays.size() > max_delays) return nullptr;
         }
     const auto cells = static_cast<std::size_t>(source_cells);
     const std::size_t places = cells * delays.size(), block = block_places / delays.size();

@@ -12,8 +12,8 @@ namespace {
 
 /// Cells of a batch with several groups: its states and its input stay in the nearest cache between update
 /// and delivery, and when few of its groups have something to do, the others cost little.
-constexpr Index most_cells = 1024;
-constexpr Index most_cells_of_group = 256;  ///< larger ones gain little
+constexpr Index max_cells = 1024;
+constexpr Index max_cells_of_group = 256;  ///< larger ones gain little
 /// Of one kind. A batch is quiescent when all its groups are, so in systems with a few alike groups, which
 /// are active at different times, batches would cost more than they gain.
 constexpr std::ptrdiff_t fewest_groups = 8;
@@ -35,8 +35,7 @@ class Gatherer {
             if (plan_.groups[i].pruned) continue;
             auto batch = static_cast<int>(plan_.batches.size());
             if (auto* kind = kind_of_group[i]; kind && kind->groups >= fewest_groups) {
-                if (kind->batch >= 0 &&
-                    plan_.batches[kind->batch].cells + plan_.groups[i].cells <= most_cells)
+                if (kind->batch >= 0 && plan_.batches[kind->batch].cells + plan_.groups[i].cells <= max_cells)
                     batch = kind->batch;
                 kind->batch = batch;
             }
@@ -84,7 +83,7 @@ class Gatherer {
     /// their target.
     bool may_join(int group) const {
         const auto& g = plan_.groups[group];
-        return !g.pruned && plan_.layout.groups[group].type.elementwise && g.cells <= most_cells_of_group &&
+        return !g.pruned && plan_.layout.groups[group].type.elementwise && g.cells <= max_cells_of_group &&
                g.module_inputs.empty() &&
                std::ranges::none_of(g.incoming, [&](int c) { return plan_.connections[c].plastic; });
     }

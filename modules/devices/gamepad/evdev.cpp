@@ -11,8 +11,8 @@ namespace {
 
 static_assert(sizeof(input_event) <= 24 && sizeof(js_event) == 8);
 
-constexpr std::array<int, most_axes> axis_codes = {ABS_X, ABS_Y,  ABS_RX,    ABS_RY,
-                                                   ABS_Z, ABS_RZ, ABS_HAT0X, ABS_HAT0Y};
+constexpr std::array<int, max_axes> axis_codes = {ABS_X, ABS_Y,  ABS_RX,    ABS_RY,
+                                                  ABS_Z, ABS_RZ, ABS_HAT0X, ABS_HAT0Y};
 
 double position(int value, Range range) {
     if (range.high <= range.low) return 0;
@@ -51,9 +51,9 @@ bool Reader::record(const char* bytes) {
         js_event e{};
         std::memcpy(&e, bytes, sizeof e);
         const int type = e.type & ~JS_EVENT_INIT;
-        if (type == JS_EVENT_AXIS && e.number < most_axes)
+        if (type == JS_EVENT_AXIS && e.number < max_axes)
             state_.axes[e.number] = position(e.value, {-32767, 32767});
-        else if (type == JS_EVENT_BUTTON && e.number < most_buttons)
+        else if (type == JS_EVENT_BUTTON && e.number < max_buttons)
             state_.buttons[e.number] = e.value != 0;
         return true;
     }
@@ -73,7 +73,7 @@ bool Reader::record(const char* bytes) {
         if (code != axis_codes.end())
             next_.axes[static_cast<std::size_t>(code - axis_codes.begin())] =
                 position(e.value, range_of_ ? range_of_(e.code) : usual_range(e.code));
-    } else if (e.type == EV_KEY && e.code >= BTN_JOYSTICK && e.code < BTN_GAMEPAD + most_buttons) {
+    } else if (e.type == EV_KEY && e.code >= BTN_JOYSTICK && e.code < BTN_GAMEPAD + max_buttons) {
         next_.buttons[e.code & 0xf] = e.value != 0;  // 16 buttons of joysticks, then 16 of gamepads
     }
     return false;

@@ -12,13 +12,13 @@
 namespace forage::gamepad {
 
 /// Axes in this order: left stick x and y, right stick x and y, left and right trigger, hat x and y.
-constexpr std::size_t most_axes = 8;
-constexpr std::size_t most_buttons = 16;
+constexpr std::size_t max_axes = 8;
+constexpr std::size_t max_buttons = 16;
 
 /// The state of a gamepad.
 struct State {
-    std::array<double, most_axes> axes{};      ///< -1 to 1, right and down are positive
-    std::array<bool, most_buttons> buttons{};  ///< whether it is pressed
+    std::array<double, max_axes> axes{};      ///< -1 to 1, right and down are positive
+    std::array<bool, max_buttons> buttons{};  ///< whether it is pressed
     void checkpoint(Archive& archive) { archive(axes, buttons); }
 };
 

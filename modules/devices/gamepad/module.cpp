@@ -42,7 +42,7 @@ void GamepadModule::describe(ModuleSpec<GamepadModule>& s) {
     s.output("JSOutput", "Axes")
         .size("2 cells per axis, in one row per axis",
               [](const T&, PortSizes&, const GroupShape& given) {
-                  return rectangle(2, std::min(given.height, static_cast<int>(most_axes)));
+                  return rectangle(2, std::min(given.height, static_cast<int>(max_axes)));
               })
         .doc(
             "A row per axis: how far it is left or up, and how far it is right or down, 0 to 1. Of evdev, "
@@ -85,9 +85,9 @@ void GamepadModule::start(const ModulePorts&) {
 
 void GamepadModule::update(ModuleFrame& frame) {
     char bytes[24 * 64];
-    constexpr int most_reads = 64;  // in a cycle, so that a stream without an end does not hold up the run
+    constexpr int max_reads = 64;  // in a cycle, so that a stream without an end does not hold up the run
     bool complete = false;
-    for (int reads = 0; reads < most_reads;) {
+    for (int reads = 0; reads < max_reads;) {
         if (waiting_.empty()) {
             const auto size = read(file_->handle, bytes, sizeof bytes);
             if (size < 0 && errno == ENODEV)
@@ -115,7 +115,7 @@ void GamepadModule::update(ModuleFrame& frame) {
         auto out = frame.output(1);
         for (Index i = 0; i < out.size(); ++i)
             out[i] =
-                i < static_cast<Index>(most_buttons) && state.buttons[static_cast<std::size_t>(i)] ? 1 : 0;
+                i < static_cast<Index>(max_buttons) && state.buttons[static_cast<std::size_t>(i)] ? 1 : 0;
     }
 }
 

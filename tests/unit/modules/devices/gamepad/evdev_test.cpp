@@ -1,10 +1,11 @@
 // The records of gamepads.
+#include "modules/devices/gamepad/evdev.h"
+
 #include <cstring>
 
 #include <linux/input.h>
 #include <linux/joystick.h>
 
-#include "modules/devices/gamepad/evdev.h"
 #include "tests/support/catch.h"
 
 using namespace forage::gamepad;
@@ -33,7 +34,7 @@ TEST_CASE("A report changes axes and buttons when it is complete") {
                                event(EV_KEY, BTN_START, 1);
     CHECK(after(events).axes[0] == 0);
     const State s = after(events + report);
-    CHECK(s.axes == std::array<double, most_axes>{1, 0, 0, -1, 0, 0, 0, -1});
+    CHECK(s.axes == std::array<double, max_axes>{1, 0, 0, -1, 0, 0, 0, -1});
     CHECK(s.buttons[0]);
     CHECK(s.buttons[BTN_START & 0xf]);
     CHECK_FALSE(s.buttons[1]);
