@@ -4,7 +4,7 @@
 
 namespace forage {
 
-/// Passes numbers on as they are: act = exc - inh.
+/// Passes its input on: act = exc - inh.
 struct Numeric {
     struct Cell {
         double pot = 0, act = 0;

@@ -3,7 +3,7 @@
 
 usage: notebook_pages.py FOLDER NOTEBOOK...
 
-FOLDER is made anew. The notebooks run in a folder of their own, so they leave nothing in the project.
+FOLDER is replaced. The notebooks run in a folder of their own, so they leave nothing in the project.
 """
 import pathlib
 import shutil

@@ -10,7 +10,7 @@
 namespace forage::bug {
 
 /// Changes the velocities of the active bodies of an island so that they do not move into anything within
-/// `steps` steps. A driven body gets the velocity of its command anew in every step; for several steps at
+/// `steps` steps. A driven body gets the velocity of its command in every step; for several steps at
 /// once it is as many times as heavy.
 void Physics::solve_contacts(std::span<const std::size_t> bodies, std::uint64_t steps) {
     active_.clear();

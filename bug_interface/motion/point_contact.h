@@ -1,4 +1,4 @@
-// Contacts at points, as they are found for a stride and solved.
+// Contacts at points, which are found for a stride and solved.
 #pragma once
 
 #include <array>

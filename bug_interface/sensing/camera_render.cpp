@@ -81,8 +81,8 @@ struct Prism {
 }  // namespace
 
 struct Camera::View {
-    /// The map from points of a floor in the frame of the robot, m, to texels: u = ux x + uy y + u0, and
-    /// likewise for v.
+    /// The map from points of a floor in the frame of the robot, m, to texels: u = ux x + uy y + u0,
+    /// v = vx x + vy y + v0.
     struct ToTexels {
         float ux, uy, u0, vx, vy, v0;
 

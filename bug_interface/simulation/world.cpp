@@ -52,7 +52,7 @@ bool World::every_substep_matters(std::uint64_t steps) const {
         return (std::abs(robot.command.forward) + speed_noise) * description_.step *
                static_cast<double>(steps);
     };
-    double pushed = 0;  // in company a robot may be pushed, at most twice as far as the fastest one drives
+    double pushed = 0;  // another robot may push a robot at most twice as far as the fastest one drives
     if (bodies_.size() > 1)
         for (const Robot& robot : robots_) pushed = std::max(pushed, 2 * travel(robot));
     return std::any_of(robots_.begin(), robots_.end(), [&](const Robot& robot) {

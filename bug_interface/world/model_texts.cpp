@@ -5,8 +5,8 @@
 namespace forage::bug {
 
 const std::string& ModelTexts::of(const std::string& uri) {
-    const auto [it, anew] = texts_.try_emplace(uri);
-    if (!anew) return it->second;
+    const auto [it, added] = texts_.try_emplace(uri);
+    if (!added) return it->second;
     std::string file = folders_.find(uri);
     Diagnostics ignored;  // the check of the world reports what is wrong with its models
     if (!file.empty() && std::filesystem::is_directory(file))

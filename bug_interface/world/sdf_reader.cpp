@@ -100,10 +100,11 @@ class Reader {
                                    ModelFolders::hint(uri, known));
             } else if (!no_models_) {
                 no_models_ = true;  // once is enough
-                diagnostics_.error(
-                    where, fmt::format("there is no model '{}', nor any other: no models are found", uri),
-                    "put them into a folder 'models' beside the world file or up to two above, or name their "
-                    "folder in FORAGE_MODEL_PATH");
+                diagnostics_.error(where,
+                                   fmt::format("model '{}' not found: there is no folder of models", uri),
+                                   "put models into a folder 'models' beside the world file or up to two "
+                                   "above, or name their "
+                                   "folder in FORAGE_MODEL_PATH");
             }
             return {};
         }

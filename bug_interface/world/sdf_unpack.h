@@ -17,7 +17,7 @@ bool may_unpack(std::string_view text, const Entry& entry);
 /// pose.
 std::string with_own_model(const std::string& text, const WorldTree& tree, const Entry& entry);
 
-/// The text with a model per link instead of a fixed model of links only. Others stay as they are. `taken`
+/// The text with a model per link instead of a fixed model of links only. Others are unchanged. `taken`
 /// holds the names in the world, and `count` becomes the number of models.
 std::string split_model(const std::string& text, const WorldTree& tree, const Entry& entry,
                         std::set<std::string> taken, std::size_t& count);

@@ -68,7 +68,8 @@ class Adoption {
     }
 
     void module(int i, int k) {
-        if (!plan_.layout.modules[static_cast<std::size_t>(i)].type.checkpoints) return;  // it begins anew
+        // A module that declares no members keeps its initial state.
+        if (!plan_.layout.modules[static_cast<std::size_t>(i)].type.checkpoints) return;
         auto &m = state_.modules[static_cast<std::size_t>(i)],
              &old = old_.modules[static_cast<std::size_t>(k)];
         for (std::size_t port = 0; port < m.out.size(); ++port) m.out[port] = old.out[port];

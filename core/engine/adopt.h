@@ -18,8 +18,9 @@ struct Unchanged {
 /// Copies the states of everything that is unchanged, what was delivered to it, and the number of cycles, so
 /// that the random streams go on, too. Parameters are not copied. What is new begins with its initial states;
 /// nothing has been delivered to it. Activity of the past that a longer delay needs and that was not kept
-/// counts as 0. A module whose type does not declare what it keeps begins anew. Both simulations have
-/// started. Throws ArchiveError when a module does not accept what it kept; the state is then of no use.
+/// counts as 0. A module whose type does not declare its members starts from its initial state. Both
+/// simulations must have started. Throws ArchiveError when a module rejects the archive; the state must then
+/// be discarded.
 void adopt(const Plan& plan, State& state, const Plan& old_plan, State& old_state,
            const Unchanged& unchanged);
 

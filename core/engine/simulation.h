@@ -122,8 +122,8 @@ class Simulation {
     /// simulation of the same system, built with the same seed. Throws ArchiveError when it does not fit, and
     /// RunError for modules of a type that does not declare what it keeps.
     void checkpoint(Archive& archive);
-    /// Goes on where the simulation `old` of a similar system is (adopt.h). Both have started, and this one
-    /// has done no cycle. Throws ArchiveError; this simulation is then of no use.
+    /// Continues from the state of `old`, a simulation of a similar system (adopt.h). Both must have started,
+    /// and this one must have done no cycle. Throws ArchiveError; this simulation must then be discarded.
     void adopt(const Simulation& old, const Unchanged& unchanged);
 
     // The numbers that follow are those of the running cycle, or between cycles those of the last one.

@@ -26,7 +26,7 @@ struct BatchState {
     bool silent = false;         ///< the activity is 0; known of large batches only
     bool finite = true;          ///< no update that was checked gave a state NaN or an infinity
     bool alike = true;           ///< the parameters of all groups are the same
-    std::size_t row = 0;         ///< the row of `inputs` that the last update read; the other one receives
+    std::size_t row = 0;         ///< the row of `inputs` that the last update read; the second row receives
     std::uint64_t same_for = 0;  ///< updates in a row with the same input
     std::int64_t changed = 0;    ///< the last cycle whose activity differed from that of the cycle before
 

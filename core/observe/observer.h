@@ -52,7 +52,7 @@ class Observer {
     /// Begins the files that grow during the run. Called once, before the first cycle of a run that is not
     /// resumed. Throws std::runtime_error.
     virtual void begin_files(ResultFiles&) {}
-    /// The names of the files that finish() will write, as far as they are known before the run.
+    /// The names of the files that finish() will write, if known before the run.
     virtual std::vector<std::string> file_names() const { return {}; }
     /// Writes the observer's files. Called once, after the last cycle, also of a run that failed or was
     /// stopped.

@@ -92,7 +92,7 @@ class Loader {
             known_.add(type);
         } catch (const std::invalid_argument& e) {
             return error(out.path,
-                         fmt::format("has a {} type that does not hold together: {}", kind, e.what()));
+                         fmt::format("has a {} type with an inconsistent declaration: {}", kind, e.what()));
         }
         owners_[fmt::format("{} {}", kind, type.name)] = out.path;
         types.push_back(std::move(type));

@@ -47,7 +47,7 @@ void check_checkpoints(const engine::Layout& layout, const std::string& option, 
                             option, m.type.name, m.process),
                 "give the type a member 'void checkpoint(forage::Archive& archive)' that lists the members "
                 "that "
-                "start() does not make anew");
+                "start() does not restore");
 }
 
 }  // namespace forage

@@ -75,15 +75,15 @@ class Explainer {
 
     std::vector<std::string> notes() const {
         std::vector<std::string> out;
-        std::vector<bool> told(layout_.groups.size());
+        std::vector<bool> explained(layout_.groups.size());
         for (std::size_t g = 0; g < layout_.groups.size(); ++g)
             for (const int m : wiring_.groups[g].readers)
                 if (silent(g)) {
-                    tell_ways_back(g, m, told, out);
+                    explain_ways_back(g, m, explained, out);
                     break;
                 }
         for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
-            if (silent(g) && !told[g] && is_first(g) && wiring_.groups[g].driven())
+            if (silent(g) && !explained[g] && is_first(g) && wiring_.groups[g].driven())
                 out.push_back(fmt::format("{} was silent: {}", name(g), why_silent(g)));
             if (auto text = clipped(g); !text.empty()) out.push_back(text);
         }
@@ -184,9 +184,9 @@ class Explainer {
     }
 
     /// One sentence for each way back from a silent group to one whose silence needs another explanation, the
-    /// shortest way first. Groups that are told already get no other sentence, except as the first one.
-    void tell_ways_back(std::size_t g, int reader, std::vector<bool>& told,
-                        std::vector<std::string>& out) const {
+    /// shortest way first. Groups that have a sentence get no other one, except as the first group.
+    void explain_ways_back(std::size_t g, int reader, std::vector<bool>& explained,
+                           std::vector<std::string>& out) const {
         constexpr std::size_t limit = 5;
         std::string begin =
             fmt::format("{} was silent, so the module of process '{}' read only zeros there: ", name(g),
@@ -194,13 +194,13 @@ class Explainer {
         std::map<std::size_t, std::size_t> next{{g, g}};  // towards g
         std::queue<std::size_t> waiting({g});
         std::size_t found = 0, more = 0;
-        told[g] = true;
+        explained[g] = true;
         for (; !waiting.empty(); waiting.pop()) {
             const std::size_t now = waiting.front();
             for (const auto s : sources(now))
                 if (silent(s) && next.emplace(s, now).second) waiting.push(s);
-            if (!is_first(now) || (found > 0 && told[now])) continue;
-            told[now] = true;
+            if (!is_first(now) || (found > 0 && explained[now])) continue;
+            explained[now] = true;
             if (++found > limit) {
                 ++more;
                 continue;

@@ -33,8 +33,8 @@ std::string loop(PreparedRun& p, const RunCallbacks& callbacks) {
     const auto begun = Clock::now();
     const double done_before = p.stop.fraction_done(run);
     auto next_look = begun;
-    int looks = 0;                          // one per second
-    bool told = !run.divergence().empty();  // reported before the stop
+    int looks = 0;                              // one per second
+    bool reported = !run.divergence().empty();  // reported before the stop
     const auto interruption = [&] {
         auto why = callbacks.interrupted ? callbacks.interrupted() : std::string();
         if (!why.empty() && p.checkpoints) p.checkpoints->write(run);
@@ -61,8 +61,8 @@ std::string loop(PreparedRun& p, const RunCallbacks& callbacks) {
                 if (left > hour && std::isfinite(left)) callbacks.takes_long(left);
             }
         }
-        if (!run.divergence().empty() && !told) {
-            told = true;
+        if (!run.divergence().empty() && !reported) {
+            reported = true;
             if (p.spec.on_nan == OnNan::stop) throw std::runtime_error(run.divergence());
             if (callbacks.diverged) callbacks.diverged(run.divergence());
         }

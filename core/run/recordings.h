@@ -45,8 +45,8 @@ class Recordings final : public Observer {
     /// renamed. Throws std::runtime_error.
     void checkpoint(Archive& archive) override;
 
-    /// Leaves out the cycles from now on, until it is called with false. A mean of several cycles then begins
-    /// anew.
+    /// Leaves out the cycles from now on, until it is called with false. A mean of several cycles then
+    /// starts again.
     void pause(bool paused) { paused_ = paused; }
 
     void after_cycle(RunView& run) override {

@@ -136,11 +136,11 @@ class Run {
 
     /// Reads or writes everything that changes in the run. May be called between cycles, after start().
     void checkpoint(Archive& archive);
-    /// Lets this run, which has done no cycle, go on where `old` is, a run of a similar system with the same
-    /// seed: groups of the same type and topology, modules with the same ports, and connections with the same
-    /// ends, pattern and type keep their states, and the cycle and the environment are those of `old`.
-    /// Parameters are those of this run's system; everything else begins anew. Throws ArchiveError and
-    /// engine::RunError when that is not possible; this run is then of no use. Observers keep nothing.
+    /// Continues from the state of `old`, a run of a similar system with the same seed; this run must have
+    /// done no cycle. Groups of the same type and topology, modules with the same ports, and connections with
+    /// the same ends, pattern and type keep their states, and the cycle and the environment are those of
+    /// `old`. Parameters are those of this run's system; everything else starts from its initial state.
+    /// Throws ArchiveError and engine::RunError; this run must then be discarded. Observers keep nothing.
     void adopt(Run& old);
     /// The subtitle of pictures, such as "dac.iqr in arena.world, seed 1"; may be empty.
     std::string title;

@@ -1,7 +1,7 @@
 // Free driving compared with the original's rule: mean and standard deviation of the final pose.
 //
 // In each of N steps of dt = 1 ms the velocity plugin drives a robot with (v + a) along its heading and turns
-// it with (w + b), a and b uniform in +-0.005 (m/s, rad/s), drawn anew in every step, also when the robot
+// it with (w + b), a and b uniform in +-0.005 (m/s, rad/s), drawn in every step, also when the robot
 // stands still. A uniform number of half width h has variance h^2 / 3, so s = 0.005 / sqrt(3) = 0.0028868.
 // With the noise independent from step to step:
 //

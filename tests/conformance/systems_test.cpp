@@ -27,7 +27,7 @@ Registry types(const Path& drive) {
     player.file = drive;
     registry.add(module_type(player));
     auto robot = module_type(player);
-    robot.name = "moduleGazeboBug";  // the recording stands in for the robot
+    robot.name = "moduleGazeboBug";  // the recording replaces the robot
     registry.add(std::move(robot));
     return registry;
 }

@@ -92,7 +92,7 @@ class AgentRun {
     ~AgentRun();
 
     /// Begins an episode of all agents: their robots are at new start poses, or at `starts`. The robots stand
-    /// for as many cycles as a sensed value needs to its group. With a seed the run is opened anew;
+    /// for as many cycles as a sensed value needs to its group. With a seed the run is opened again;
     /// otherwise a brain keeps what it has learned. Throws InputError when `starts` has not one pose per
     /// agent.
     void reset(std::optional<std::uint64_t> seed = {}, std::span<const Pose2> starts = {});

@@ -190,7 +190,7 @@ PartResults read_planned(const PreparedExperiment& e, const std::optional<Shard>
     return out;
 }
 
-/// Leaves the runs of the first round. What follows is decided anew, because failed runs may have got
+/// Leaves the runs of the first round. Later rounds are decided again, because failed runs may have got
 /// numbers.
 void begin_rounds(PreparedExperiment& e) {
     if (!e.experiment.adaptation) return;

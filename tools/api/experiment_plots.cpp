@@ -21,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 using plot::PlotSpec;
 
-constexpr std::size_t max_lines = 10;  ///< that can be told apart
+constexpr std::size_t max_lines = 10;  ///< that readers can distinguish
 constexpr std::size_t unreadable_lines = 100;
 constexpr std::size_t max_blocks = 25;  ///< of trials, in a picture of learning
 

@@ -13,7 +13,7 @@ namespace forage {
 nlohmann::json parse_json(const std::string& text, const std::string& name = {});
 /// Throws what parse_json() throws.
 void check_json(const std::string& text, const std::string& name);
-/// The elements of a list without those that are null: texts as they are, others as JSON.
+/// The elements of a list without those that are null: texts unchanged, others as JSON.
 std::vector<std::string> elements_of(const std::string& list);
 /// Throws InputError for more than 100 lists and objects within each other: what goes through them is
 /// recursive.

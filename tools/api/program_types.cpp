@@ -26,7 +26,7 @@ ProgramTypes& all() {
 template <class Type>
 void put(Versions<Type>& types, Type type, std::string version) {
     Registry registry = forage_types();
-    registry.add(type);  // throws for a type that does not hold together
+    registry.add(type);  // throws for an inconsistent declaration
     const std::lock_guard lock(all().mutex);
     std::string name = type.name;
     types.insert_or_assign(std::move(name), std::pair(std::move(type), std::move(version)));

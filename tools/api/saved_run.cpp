@@ -21,7 +21,7 @@ std::string absolute(const std::string& path) {
     return path.empty() ? path : std::filesystem::absolute(path).string();
 }
 
-/// An observer that open() does not add, as it is made anew.
+/// An observer that open() does not add, because it is created when the run resumes.
 enum class Saved : std::uint8_t { recording, manipulation, measures };
 
 void keep(Archive& archive, std::string& source, std::uint64_t& every) { archive(source, every); }

@@ -12,7 +12,7 @@
 
 namespace forage {
 
-/// A type in use, with the parameters that the system sets, as they are written there.
+/// A type in use, with the parameters that the system sets, with their text in the file.
 struct TypeDescription {
     std::string type;
     std::vector<std::pair<std::string, std::string>> parameters;

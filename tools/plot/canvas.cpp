@@ -38,10 +38,10 @@ void draw(const Picture& picture, cairo_surface_t* surface, double scale) {
     check(cairo_status(context.get()));
 }
 
-/// Numbers the ids in an SVG file anew. Cairo numbers them ("surface7", and from 1.18 on "source-7") with a
+/// Renumbers the ids in an SVG file. Cairo numbers them ("surface7", and from 1.18 on "source-7") with a
 /// counter that continues from picture to picture. Here they are numbered in the order of their first
 /// occurrence, so that a picture's bytes do not depend on earlier pictures. Glyphs, which have two numbers,
-/// are counted anew in each file.
+/// are counted per file.
 std::string renumbered(const std::string& svg) {
     std::map<std::string, std::size_t> numbers;
     std::string out;

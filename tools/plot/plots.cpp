@@ -168,8 +168,8 @@ StructurePlotter::StructurePlotter(PlotSpec spec, const engine::Layout& layout, 
                                    Format format, std::string title)
     : spec_(std::move(spec)), format_(format), title_(std::move(title)) {
     if (!spec_.of_connection()) return;
-    Diagnostics told;  // check_structure() has reported these
-    const auto* c = find_connection(system, spec_.what, "plot", told);
+    Diagnostics ignored;  // check_structure() has reported these
+    const auto* c = find_connection(system, spec_.what, "plot", ignored);
     for (std::size_t i = 0; c && i < layout.connections.size(); ++i)
         if (layout.connections[i].id == c->id) connections_.push_back(static_cast<int>(i));
 }

@@ -172,7 +172,7 @@ struct DrawnFile {
 /// is none.
 DrawnFile draw_group_now(Run& run, const std::string& id, const std::string& state, Format format,
                          const std::string& title);
-/// The synapses of a connection as they are now. Throws std::exception.
+/// The present synapses of a connection. Throws std::exception.
 DrawnFile draw_connection_now(const Run& run, const std::string& id, Format format, const std::string& title);
 
 }  // namespace forage::plot

@@ -43,7 +43,7 @@ class Drawing {
         map_.draw_ground(canvas);
         map_.draw_movable_objects(canvas);
         map_.draw_marks(canvas);
-        for (const bool reached : {true, false})  // missed trials are drawn on top, as they are fewer
+        for (const bool reached : {true, false})  // missed trials are drawn on top, because they are fewer
             for (std::size_t i = 0; i < paths_.size(); ++i)
                 if (paths_[i].reached == reached) draw_path(i);
         map_.draw_targets(canvas);

@@ -189,10 +189,10 @@ all: whether a cell is paired with every cell under its projection, not only wit
             R"("mapped", "foreach" or "tuples".)")
         .def_property_readonly(
             "source", [](const PythonPattern& self) { return cells(self.value, true); },
-            "The cells of the source, as they are given; a list of lists of a pattern of tuples.")
+            "The cells of the source in the given order; a list of lists of a pattern of tuples.")
         .def_property_readonly(
             "target", [](const PythonPattern& self) { return cells(self.value, false); },
-            "The cells of the target, as they are given; a list of lists of a pattern of tuples.");
+            "The cells of the target in the given order; a list of lists of a pattern of tuples.");
     add_value(type);
 }
 

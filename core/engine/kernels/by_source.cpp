@@ -18,7 +18,7 @@ namespace {
 typedef double Lanes __attribute__((vector_size(SourceLayout::lanes * sizeof(double))));  // NOLINT
 
 constexpr int max_together = 4;
-/// Sources whose weights are added together, each in its turn, so that sums are read and written once.
+/// Sources whose weights are added together, one after the other, so that sums are read and written once.
 struct Together {
     const double* weights[max_together];
     const double* next[max_together];  ///< what is read afterwards: fetched, as no pattern tells its place

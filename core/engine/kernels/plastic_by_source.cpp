@@ -1,5 +1,5 @@
 // Plastic synapses laid out by their source: those of silent sources are passed over where their type
-// promises that they stay as they are. For maps and windows that learn: 11 x 11 Hebbian synapses per cell,
+// promises that they do not change. For maps and windows that learn: 11 x 11 Hebbian synapses per cell,
 // with sources that spike with a probability of 0.3, take 70 us per cycle for 50 x 50 cells; the list takes
 // 1,900.
 #include <algorithm>
@@ -106,7 +106,7 @@ class PlasticBySource final : public PlasticKernel {
         std::vector<int> active;                    ///< cells of a line of sources
         std::vector<double> pre, output;            ///< per synapse of a source
         std::vector<double> sums;                   ///< the frame
-        std::vector<std::vector<double>> feedback;  ///< likewise
+        std::vector<std::vector<double>> feedback;  ///< of the frame
         std::vector<Column> source_states;
         std::vector<ConstColumn> source_feedback;
         std::vector<double> shown;  ///< what state() gave last

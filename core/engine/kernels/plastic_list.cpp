@@ -69,7 +69,7 @@ class PlasticList final : public PlasticKernel {
         std::vector<std::vector<double>> gathered;  ///< feedback, per synapse of a block
         std::vector<double> sums;                   ///< per target cell
         std::vector<Column> states;                 ///< of a block
-        std::vector<ConstColumn> feedback;          ///< likewise
+        std::vector<ConstColumn> feedback;          ///< of a block
     };
 
     void learn_block(const KernelInput& in, Index first, Index size) const {

@@ -175,8 +175,8 @@ void check_runs(const model::Experiment& e, const PrepareRun& prepare, const Run
     if (!prepared) {  // the swept values are checked nevertheless
         RunSpec bare;
         bare.input = spec.input;
-        Diagnostics told;
-        prepared = prepare(bare, told);
+        Diagnostics ignored;
+        prepared = prepare(bare, ignored);
     }
     for (std::size_t i = 0; prepared && i < e.sweeps.size(); ++i) {
         if (!e.sweeps[i].files.empty()) continue;

@@ -41,7 +41,7 @@ class Reader {
     explicit Reader(Format format = Format::evdev, std::function<Range(int)> range_of = {})
         : format_(format), range_of_(std::move(range_of)) {}
 
-    /// Reads bytes up to the end of the next report, which is when a gamepad has told all that happened at
+    /// Reads bytes up to the end of the next report, when a gamepad has sent all that happened at
     /// one time. Returns the number of bytes that it has taken, and sets `complete` when a report ended.
     std::size_t read(std::string_view bytes, bool& complete);
     /// The state after the last complete report.

@@ -50,12 +50,12 @@ void VideoModule::describe(ModuleSpec<VideoModule>& s) {
     s.param("Brightness", &T::brightness)
         .label("Brightness")
         .range(0, 100)
-        .doc("50 leaves pictures as they are.");
-    s.param("Contrast", &T::contrast).label("Contrast").range(0, 100).doc("50 leaves pictures as they are.");
+        .doc("50 leaves pictures unchanged.");
+    s.param("Contrast", &T::contrast).label("Contrast").range(0, 100).doc("50 leaves pictures unchanged.");
     s.param("Saturation", &T::saturation)
         .label("Saturation")
         .range(0, 100)
-        .doc("50 leaves pictures as they are.");
+        .doc("50 leaves pictures unchanged.");
     s.param("Real Time", &T::real_time)
         .label("Real time")
         .at_start()
@@ -70,7 +70,7 @@ void VideoModule::describe(ModuleSpec<VideoModule>& s) {
         .doc("Every n-th picture of a film or folder is shown.");
     s.param("Loop", &T::loop)
         .label("Loop")
-        .doc("A film or folder begins anew after its end; otherwise the outputs are 0 then.");
+        .doc("A film or folder repeats after its end; otherwise the outputs are 0 then.");
     for (const auto& [name, member] :
          {std::pair{"Input", &T::input}, {"Standard", &T::standard}, {"AutoGain", &T::auto_gain}})
         s.param(name, member).label(name).doc("A setting of the original's driver, without effect.");
@@ -128,7 +128,7 @@ void VideoModule::open() {
 void VideoModule::start(const ModulePorts& ports) {
     for (std::size_t i = 0; i < end_of_video; ++i) shapes_.push_back(ports.outputs[i].shape);
     over_ = false, waited_ = 0, due_ = 0;
-    // A camera is opened by the first cycle: when the studio builds a run anew, the run before still has it.
+    // A camera is opened by the first cycle: when the studio rebuilds a run, the previous run still has it.
     if (is_camera())
         check_camera(camera());
     else

@@ -1,4 +1,4 @@
-// Every system that ships, and every one of the original, is read without a mistake.
+// Every system that ships, and every system of the original, is read without a mistake.
 #include <algorithm>
 #include <filesystem>
 

@@ -403,7 +403,7 @@ def neuron(
     label, doc: how people call it, and what it is; the docstring without it.
     reads: the inputs that update() uses, of "exc", "inh", "mod"; all without it. Connections of another kind give a warning.
 
-    Raises InputError when Forage has a type of this name, and for declarations that do not hold together.
+    Raises InputError when Forage has a type of this name, and for inconsistent declarations.
     """
     return _decorator("neuron", cls, name, label, doc, reads)
 

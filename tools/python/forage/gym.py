@@ -200,7 +200,7 @@ class BugEnv(_Rendered, Env):  # type: ignore[misc]
     def reset(self, *, seed: int | None = None, options: typing.Any = None) -> typing.Any:
         """Begins an episode, and returns (observation, info).
 
-        With a seed, the run begins anew, and the same actions give the same bits. Without one, the brain keeps what it has
+        With a seed, the run is opened again, and the same actions give the same bits. Without one, the brain keeps what it has
         learned, and the robot starts at the next start pose. options={"start": (x, y, yaw)}, in m and rad, places it there.
         """
         super().reset(seed=seed)

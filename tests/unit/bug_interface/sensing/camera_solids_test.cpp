@@ -383,7 +383,7 @@ void put(WorldDescription& world, ShapeKind kind, const Pose& pose, const Eigen:
 
 }  // namespace
 
-TEST_CASE("Pictures in company equal those that are cast ray by ray, to the bit", "[long]") {
+TEST_CASE("Pictures with other robots equal those that are cast ray by ray, to the bit", "[long]") {
     std::mt19937 chance(11);
     const auto uniform = [&](double from, double to) {
         return std::uniform_real_distribution<double>(from, to)(chance);

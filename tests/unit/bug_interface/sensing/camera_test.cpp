@@ -150,11 +150,11 @@ TEST_CASE("The light on a textured floor saturates, or is `floor_gain`") {
     const double gain = world.ambient + world.sun->z();
     CHECK(gain == Approx(1.27006).margin(1e-5));
     // The half-saturated patch at (1.492, 0.952): (128, 0, 255).
-    const std::vector<std::string> nobody = {"Bug"};
+    const std::vector<std::string> excluded = {"Bug"};
     const Arena& arena = Arena::get();
     const auto red_under = [&](std::optional<float> floor_gain) {
         const Camera camera(arena.link.cameras.at(0), arena.link.pose,
-                            std::make_shared<Scene>(world, nobody, floor_gain));
+                            std::make_shared<Scene>(world, excluded, floor_gain));
         return picture(camera, {1.492, 0.952 - 0.38, up})[3 * (14 * 32 + 16)] * 255;
     };
     CHECK(red_under({}) == Approx(163).margin(0.6));

@@ -212,8 +212,8 @@ TEST_CASE("Robots sense and stop each other") {
     const auto world = make_world(two_robots(0, -1.5, std::numbers::pi / 2), options(25, 1, false));
     CHECK(world->find("Second") == std::size_t{1});
     CHECK_FALSE(world->find("Third"));
-    // The first robot looks down the y axis, the other one is ahead; rays 15 and 16 are 0.0968 rad beside the
-    // axis.
+    // The first robot looks down the y axis, the second one is ahead; rays 15 and 16 are 0.0968 rad beside
+    // the axis.
     const auto reading = [](double apart) {
         return (2 -
                 (apart * std::cos(0.096774) - std::sqrt(0.04 - std::pow(apart * std::sin(0.096774), 2)))) /

@@ -144,7 +144,7 @@ TEST_CASE("every property of everything in every world takes another value, whic
                     CHECK(std::stod(now) == Approx(std::stod(wanted)).margin(0.02));
                 else
                     CHECK(now == wanted);
-                // The other items stay as they are.
+                // The other items are unchanged.
                 for (const auto& other : items_of_world(text, models))
                     if (other.id != item.id && p.name != "name")  // repeated names are numbered
                         CHECK(find_item(after, other.id).parts.size() == other.parts.size());

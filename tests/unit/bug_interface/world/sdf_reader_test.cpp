@@ -55,11 +55,11 @@ TEST_CASE("An incomplete or wrong include gives an error with a hint") {
 
 TEST_CASE("Models that are not found give one error with a hint") {
     const std::string said = diagnostics_of(edited("</world>", "</world>"), false);
-    CHECK(said ==
-          "46: error: there is no model 'model://floor_basic', nor any other: no models are found | put them "
-          "into a "
-          "folder 'models' beside the world file or up to two above, or name their folder in "
-          "FORAGE_MODEL_PATH\n");
+    CHECK(
+        said ==
+        "46: error: model 'model://floor_basic' not found: there is no folder of models | put models into a "
+        "folder 'models' beside the world file or up to two above, or name their folder in "
+        "FORAGE_MODEL_PATH\n");
 }
 
 TEST_CASE("A malformed value gives an error at its line") {

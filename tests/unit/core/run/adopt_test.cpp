@@ -76,7 +76,7 @@ TEST_CASE("what an edit does not touch has the same future, in every kind of sys
     CHECK(run.read("New/Last").size() == 5);
 }
 
-TEST_CASE("what is changed begins anew, and what is removed is gone") {
+TEST_CASE("what is changed starts from its initial state, and what is removed is gone") {
     SystemFile file = forage::read_system((test::source_dir() / "systems/dac_foraging.iqr").string());
     Run old = opened(file, "basic_arena.world");
     for (int i = 0; i < before; ++i) old.step();

@@ -104,9 +104,9 @@ TEST_CASE("A command changes every item of its name between two cycles, or none 
     Diagnostics diagnostics;
     auto run = Run::make(system, registry, nullptr, {}, diagnostics);
     REQUIRE(run);
-    std::vector<std::string> told;
+    std::vector<std::string> lines;
     auto& remote = run->add(std::make_unique<RemoteControl>(Endpoint{}));
-    remote.tell = [&](const std::string& line) { told.push_back(line); };
+    remote.tell = [&](const std::string& line) { lines.push_back(line); };
     auto sender = UdpSocket::connect(*parse_endpoint(remote.address()));
     const auto obey = [&](std::string_view text) {
         sender.send(text);
@@ -128,14 +128,14 @@ TEST_CASE("A command changes every item of its name between two cycles, or none 
     obey("nonsense");
     REQUIRE(remote.obeyed().size() == 2);
     CHECK(remote.obeyed()[0].cycle == 1);
-    CAPTURE(told);
-    REQUIRE(told.size() == 8);
-    CHECK(told[0] == "cycle 1: cmd:param;itemType:GROUP;itemName:A;paramName:probability;value:0.25");
-    CHECK(told[1].ends_with(": 'A' has no parameter 'threshold'"));
-    CHECK(told[3].ends_with(": probability = 'much' is not a number"));
-    CHECK(told[5].ends_with(": nothing of this type is called 'C'"));
-    CHECK(told[6] == "refused cmd:startsampler: this run records nothing; --record says what");
-    CHECK(told[7] == "a datagram is not a command: 'nonsense' has no ':'");
+    CAPTURE(lines);
+    REQUIRE(lines.size() == 8);
+    CHECK(lines[0] == "cycle 1: cmd:param;itemType:GROUP;itemName:A;paramName:probability;value:0.25");
+    CHECK(lines[1].ends_with(": 'A' has no parameter 'threshold'"));
+    CHECK(lines[3].ends_with(": probability = 'much' is not a number"));
+    CHECK(lines[5].ends_with(": nothing of this type is called 'C'"));
+    CHECK(lines[6] == "refused cmd:startsampler: this run records nothing; --record says what");
+    CHECK(lines[7] == "a datagram is not a command: 'nonsense' has no ':'");
     obey("cmd:stop");
     CHECK(remote.paused());
     obey("cmd:start");

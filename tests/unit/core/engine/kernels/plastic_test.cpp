@@ -204,7 +204,7 @@ TEST_CASE("Skipping the synapses of silent sources does not change a result", "[
             learn.pattern = model::ForeachPattern{};
             learn.arborization.shape = model::RectArbor{1, 1};
     }
-    if (GENERATE(false, true)) learn.attenuation = uniform(0);  // outputs are added as they are
+    if (GENERATE(false, true)) learn.attenuation = uniform(0);  // outputs are added unchanged
     if (GENERATE(false, true))
         learn.synapse->type = "mute", learn.synapse->settings.clear(),
         learn.synapse->feedback[0].name = "post";

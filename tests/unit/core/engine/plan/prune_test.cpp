@@ -110,7 +110,7 @@ TEST_CASE(
     const auto pruned_for = [&](const Demanded& groups) {
         return pruned(build(chain.system, chain.types, groups));
     };
-    CHECK(pruned_for({}) == "");  // a run that computes nothing is of no use
+    CHECK(pruned_for({}) == "");  // a run must compute something
     CHECK(pruned_for({"C"}) == "D E F G");
     CHECK(pruned_for({"B"}) == "C D E F G");
     CHECK(pruned_for({"D", "F"}) == "B C E G");
@@ -184,7 +184,7 @@ TEST_CASE("An output of a module can be read without its group") {
     CHECK(s.module_output(0, 0)[1] == 4);
 }
 
-TEST_CASE("A module is told that all its outputs are read, unless they are unset, when nothing is pruned") {
+TEST_CASE("All outputs of a module that are set count as read when nothing is pruned") {
     Chain chain;
     chain.use_module(chain.a, chain.f, chain.g);
     auto s = run(chain.system, chain.types);
@@ -217,13 +217,13 @@ TEST_CASE("Reading something pruned is an error that names it and explains how t
     s.start();
     s.step();
     const int c = group(s.layout(), "P/C");
-    const auto told = ContainsSubstring(
+    const auto message = ContainsSubstring(
         "group 'P/C' is pruned: nothing that was demanded depends on it. To read it, call "
         "Demand::read_group()");
-    CHECK_THROWS_WITH(s.state(c, 0), told);
-    CHECK_THROWS_WITH(s.input(c, InputKind::excitatory), told);
-    CHECK_THROWS_WITH(s.output(c), told);
-    CHECK_THROWS_WITH(s.writable_state(c, 0), told);
+    CHECK_THROWS_WITH(s.state(c, 0), message);
+    CHECK_THROWS_WITH(s.input(c, InputKind::excitatory), message);
+    CHECK_THROWS_WITH(s.output(c), message);
+    CHECK_THROWS_WITH(s.writable_state(c, 0), message);
     CHECK_THROWS_AS(s.state(c, 0), std::logic_error);
     CHECK(activity(s, "P/B").size() == 2);
 }
