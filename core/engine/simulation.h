@@ -85,7 +85,7 @@ class Simulation {
     /// Starts the modules; once, before the first cycle. Throws RunError.
     void start();
     /// Runs one cycle. Throws RunError, also before start(). A simulation that has thrown in a cycle cannot
-    /// go on.
+    /// continue.
     void step();
     void update_groups();
     void update_modules();

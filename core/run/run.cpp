@@ -156,7 +156,8 @@ RunView Run::view() { return {*simulation_, environment_.get(), time(), *this}; 
 
 void Run::step() {
     if (!simulation_) start();
-    if (failed_) throw engine::RunError(fmt::format("cycle {} of this run failed: it cannot go on", cycle()));
+    if (failed_)
+        throw engine::RunError(fmt::format("cycle {} of this run failed: it cannot continue", cycle()));
     auto& simulation = *simulation_;
     RunView before = view();
     for (const auto& o : observers_) o->before_cycle(before);

@@ -96,7 +96,7 @@ class Run {
     std::string until(const RunLength& length);
     /// Does the same, and calls `after_cycle` after each cycle, with the condition that will end the run and
     /// the time from which its length is counted. The callback may read and change the run, but not step it.
-    /// What it throws ends the call; the run can go on. Throws InputError for a length that is impossible.
+    /// What it throws ends the call; the run can continue. Throws InputError for a length that is impossible.
     using AfterCycle = std::function<void(const StopCondition&, const StopOrigin&)>;
     EarlyEnd advance(const RunLength& length, const AfterCycle& after_cycle = {});
 
@@ -167,7 +167,7 @@ class Run {
     ModuleFiles* module_files_;                     ///< one of the observers
     std::optional<engine::Simulation> simulation_;  ///< destroyed first: its modules use the streams
     std::string divergence_;
-    bool failed_ = false;  ///< whether a cycle threw; always false between cycles of a run that can go on
+    bool failed_ = false;  ///< whether a cycle threw; always false between cycles of a run that can continue
 };
 
 }  // namespace forage

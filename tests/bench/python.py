@@ -80,7 +80,7 @@ def import_time():
 
 
 def interrupt_time(run):
-    """How long a run goes on after Ctrl-C."""
+    """How long a run continues after Ctrl-C."""
     sent = []
     threading.Timer(0.1, lambda: (sent.append(time.perf_counter()), signal.raise_signal(signal.SIGINT))).start()
     try:

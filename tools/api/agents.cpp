@@ -286,7 +286,7 @@ void AgentRun::step() {
     }
 }
 
-/// Finds out what the last cycle brought an agent whose episode goes on.
+/// Finds out what the last cycle brought an agent whose episode continues.
 void AgentRun::follow(State& agent) {
     Outcome& outcome = agent.outcome;
     const auto& finished = world_->trials(agent.robot);

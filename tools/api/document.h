@@ -97,8 +97,8 @@ class Document {
     bool changed_outside() const;
 
     enum class Keep { mine, theirs, merge };
-    /// Goes on after a change outside: with this text, with that of the file, or with the file's text and the
-    /// changes of this document in it. Throws InputError when texts without a system should be merged, or
+    /// Continues after a change outside: with this text, with that of the file, or with the file's text and
+    /// the changes of this document in it. Throws InputError when texts without a system should be merged, or
     /// when both have changed the same thing.
     bool reload(Keep keep);
 

@@ -105,7 +105,7 @@ struct StudioCommand {
     RunInput input;
     std::string plot_config;  ///< a layout to open; may be empty
     int port = 0;             ///< 0: a free one
-    bool recover = false;     ///< whether to go on with the session that was killed
+    bool recover = false;     ///< whether to resume the session that was killed
     bool running = false;     ///< whether the run begins at once
     bool open = false;        ///< whether a browser is opened
 };

@@ -340,7 +340,7 @@ void add_studio(CLI::App& app, StudioCommand& o) {
         ->check(CLI::Range(0, 65535))
         ->option_text("N");
     command.add_flag("-r,--run", o.running, "Begin to run at once");
-    command.add_flag("--recover", o.recover, "Go on with the session of this system that was killed");
+    command.add_flag("--recover", o.recover, "Resume the session of this system that was killed");
     command.add_flag("--open", o.open, "Open the browser");
 }
 

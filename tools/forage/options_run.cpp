@@ -247,7 +247,7 @@ void add_run_options(CLI::App& run, RunOptions& options) {
            [&o](const std::string& text) {
                o.on_nan = text == "warn" ? OnNan::warn : text == "stop" ? OnNan::stop : OnNan::ignore;
            },
-           "When a number becomes NaN or infinite in a group that is computed: 'warn' once and go on, "
+           "When a number becomes NaN or infinite in a group that is computed: 'warn' once and continue, "
            "'stop', "
            "or 'ignore' it [warn]")
         ->check(one_of({"warn", "stop", "ignore"}))

@@ -79,7 +79,7 @@ std::string summary(const PreparedRun& p, const RunOutcome& outcome, bool resuma
     if (p.spec.digest) line("computed", fmt::format("all {} groups, as --hash demands", groups));
     if (!run.divergence().empty()) line("diverged", run.divergence());
     if (!outcome.state.empty()) line("state", outcome.state);
-    if (resumable) line("to go on", "forage resume " + p.spec.directory);
+    if (resumable) line("to continue", "forage resume " + p.spec.directory);
     if (!outcome.files.names().empty())
         line("written", fmt::format("{}: {}", p.spec.directory, separated(outcome.files.names(), ", ")));
     return out;

@@ -191,9 +191,9 @@ void add_runs(py::module_& module) {
     run.doc() = R"(A system in its world, run cycle by cycle. forage.open() makes one.
 
 It may be read and changed between any two cycles. One thread at a time uses a run; several runs in several threads of Python use several cores, as
-Python goes on while a run runs. As a context manager it closes itself. copy.copy() and pickle make runs in the same state, without callbacks.)";
+Python continues while a run runs. As a context manager it closes itself. copy.copy() and pickle make runs in the same state, without callbacks.)";
     run.def("step", &PythonRun::step,
-            "Runs one cycle. Raises RunError when a type or a module fails; such a run cannot go on.")
+            "Runs one cycle. Raises RunError when a type or a module fails; such a run cannot continue.")
         .def(
             "run", &run_for, py::kw_only(), "cycles"_a = none, "seconds"_a = none, "trials"_a = none,
             "progress"_a = none, "trial_timeout"_a = 300.0,
@@ -202,7 +202,7 @@ Python goes on while a run runs. As a context manager it closes itself. copy.cop
 progress: True for a bar on the standard error, or a function that is called ten times per second with the fraction that is done, 0 to 1, and a text.
 trial_timeout: seconds of the world. A trial that takes longer raises RunError.
 
-Ctrl-C raises KeyboardInterrupt between two cycles. After it, and after what a callback raises, the run can go on.)")
+Ctrl-C raises KeyboardInterrupt between two cycles. After it, and after what a callback raises, the run can continue.)")
         .def(
             "run_until", &run_until, "condition"_a, py::kw_only(), "cycles"_a = none, "seconds"_a = none,
             "trials"_a = none, "progress"_a = none, "trial_timeout"_a = 300.0,
@@ -269,7 +269,7 @@ quantity) and robot ("path length" and others, with of="NAME" of a robot that is
                 move(self.use(), name, x, y, heading);
             },
             "name"_a, "x"_a, "y"_a, "heading"_a = none,
-            R"(Moves a robot or a movable object between two cycles to a place, in m, where it is at rest; a trial goes on.
+            R"(Moves a robot or a movable object between two cycles to a place, in m, where it is at rest; a trial continues.
 
 heading: in rad, counter-clockwise from the x axis; as it is without it.
 Raises InputError without a world, for a name that it does not have, when something is at the place, and while the robot is being reset.)")
@@ -297,7 +297,7 @@ source: "Process/Group", "Process/Group:state", some cells of it "Process/Group(
             "--hash` prints.")
         .def(
             "save_state", &save, "file"_a = none,
-            R"(Everything that the run needs to go on, in this program or another, with its probes, manipulations and measures. forage.resume() reads it.
+            R"(Everything that the run needs to continue, in this program or another, with its probes, manipulations and measures. forage.resume() reads it.
 
 file: a path, or a file that is open to write bytes. Without it, the bytes are returned.
 Raises InputError for a run that was not opened from a file, and OSError when the file cannot be written.)")

@@ -22,7 +22,7 @@ bool in_main_thread() {
 }
 
 /// While it lives, Ctrl-C waits until a cycle has ended, because an update of a Python type that is
-/// interrupted would leave a run that cannot go on. A second Ctrl-C does not wait, for an update that does
+/// interrupted would leave a run that cannot continue. A second Ctrl-C does not wait, for an update that does
 /// not end. Does nothing without Python types, and outside the main thread, in which Python handles signals.
 class LateInterrupt {
   public:

@@ -16,7 +16,7 @@
 namespace forage::python {
 
 /// A run, its callbacks, and the right to use it: one thread at a time runs cycles, while other threads of
-/// Python go on. All functions are called with the GIL.
+/// Python continue. All functions are called with the GIL.
 class PythonRun : public std::enable_shared_from_this<PythonRun> {
   public:
     explicit PythonRun(std::shared_ptr<Run> run);
@@ -30,7 +30,7 @@ class PythonRun : public std::enable_shared_from_this<PythonRun> {
     void step();
     /// Runs until `length` is reached, and returns whether its condition held. `progress` is called ten times
     /// per second with the fraction that is done and a text; it may be None. Throws RunError when a trial
-    /// takes too long, and what a callback or a signal handler raises; the run can go on.
+    /// takes too long, and what a callback or a signal handler raises; the run can continue.
     bool advance(const RunLength& length, const py::object& progress);
     void on_cycle(py::object callback, std::uint64_t every);
     /// Removes the callback. Returns whether there was one.

@@ -53,7 +53,7 @@ void save_system(PythonSystem& self, const std::optional<Path>& path, bool origi
     writing([&] { save(self, path ? path->string() : self.path, original); });
 }
 
-/// What `forage check` finds. Other threads of Python go on.
+/// What `forage check` finds. Other threads of Python continue.
 Diagnostics check(const PythonSystem& self, const std::string& world) {
     const SystemFile file = self.file();
     const py::gil_scoped_release others;

@@ -61,10 +61,10 @@ Run open(const std::string& system, const OpenOptions& options = {}, Diagnostics
 Run open(model::System system, Registry types, std::unique_ptr<Environment> environment = nullptr,
          const OpenOptions& options = {});
 
-/// Everything that a run needs to go on in this program or another: how open() was called, the digests of its
-/// files, its recordings in memory, manipulations and measures, and its state. Throws InputError for a run
-/// that was not opened from a file or has other observers, and engine::RunError for modules of a type that
-/// does not declare what it keeps.
+/// Everything that a run needs to continue in this program or another: how open() was called, the digests of
+/// its files, its recordings in memory, manipulations and measures, and its state. Throws InputError for a
+/// run that was not opened from a file or has other observers, and engine::RunError for modules of a type
+/// that does not declare what it keeps.
 std::string save_state(Run& run);
 /// Opens the run again and continues from the state. Throws InputError when its files have changed or cannot
 /// be read, CheckpointError and ArchiveError when `state` is not one or does not fit.

@@ -245,7 +245,7 @@ class _Stopped(Exception):
 
 
 class _Work:
-    """Runs whose measures are functions, in threads: Python goes on while a run runs."""
+    """Runs whose measures are functions, in threads: Python continues while a run runs."""
 
     def __init__(self, open_run: typing.Callable[[int, list[str]], _forage.Run], length: tuple[str, dict[str, typing.Any]] | None,
                  declared: dict[str, dict[str, str]], functions: dict[str, Function]) -> None:

@@ -42,7 +42,7 @@ def optimise(system: Path | _forage.System, world: Path | None, bounds: typing.M
     generations, population: the number of generations, and of points in each; without it, 5 points per parameter, at least 8. Each generation is one sweep.
     method: "evolution", differential evolution (needs SciPy), or "cma", CMA-ES (needs the package cmaes, python3-cmaes in Debian).
     seed: of the search. The same one gives the same points, whatever jobs or executor execute the runs.
-    directory: keeps the results of each generation in a folder of its own. The same call then goes on after a kill, and computes no run again.
+    directory: keeps the results of each generation in a folder of its own. The same call then continues after a kill, and computes no run again.
     progress: as for experiment(). measure and other options: as for sweep(), which executes the generations; for example trials, jobs, executor.
 
     Raises InputError for mistakes, before the first run, and what `cost` raises.

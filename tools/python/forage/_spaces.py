@@ -142,7 +142,7 @@ class ParallelEnv:
 
     @property
     def num_agents(self):
-        """The number of agents whose episode goes on."""
+        """The number of agents whose episode continues."""
         return len(self.agents)
 
     @property

@@ -1,4 +1,4 @@
-// A run goes on in an edited system: what did not change keeps its states, and its future.
+// A run continues in an edited system: what did not change keeps its states, and its future.
 #include <filesystem>
 
 #include <forage/system.h>

@@ -24,7 +24,7 @@ SystemFile echo() {
 
 }  // namespace
 
-TEST_CASE("A system that was built runs like its file, and a saved run of it goes on without a file") {
+TEST_CASE("A system that was built runs like its file, and a saved run of it continues without a file") {
     SystemFile file = echo();
     CHECK(file.path == "echo.iqr");
     Run built = open(file, {.seed = 3});
