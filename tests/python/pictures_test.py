@@ -34,12 +34,12 @@ def test_pictures_have_formats_and_are_saved(dac, tmp_path):
     svg.save(tmp_path / "diagram.svg")
     assert (tmp_path / "diagram.svg").read_bytes() == svg.data
     assert dac.plot("space:Bug/Light").data  # the last cycle needs no probe
+    twin = copy.copy(dac)
+    assert twin.plot("trajectory").data == png.data
     dac.probe("Bug/Motor")
     dac.run(cycles=10)
     movie = dac.plot("movie:Bug/Motor")
     assert movie.data.startswith(b"GIF89a") and "data:image/gif;base64," in movie._repr_html_() and movie._repr_png_() is None
-    twin = copy.copy(dac)
-    assert twin.plot("trajectory").data == png.data
 
 
 def test_a_diagram_is_in_the_page_that_a_notebook_exports(dac):
