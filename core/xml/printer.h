@@ -19,14 +19,16 @@ class Printer {
     struct Attribute {
         const char* name;
         ParameterValue value;
-        bool absent = false;  ///< whether it is not written
     };
     using Attributes = std::initializer_list<Attribute>;
 
     void open(const char* name, Attributes attributes = {}) {
         out_.OpenElement(name);
-        for (const Attribute& a : attributes)
-            if (!a.absent) out_.PushAttribute(a.name, hidden(to_text(a.value), "\r\n\t").c_str());
+        for (const Attribute& a : attributes) attribute(a.name, a.value);
+    }
+    /// Writes an attribute of the element that was opened last.
+    void attribute(const char* name, const ParameterValue& value) {
+        out_.PushAttribute(name, hidden(to_text(value), "\r\n\t").c_str());
     }
     void close() { out_.CloseElement(); }
     /// Writes an element without content.

@@ -9,6 +9,7 @@
 #include "core/model/lookup.h"
 #include "core/xml/canvas.h"
 #include "core/xml/check.h"
+#include "core/xml/system_elements.h"
 
 namespace forage::xml {
 namespace {
@@ -59,12 +60,7 @@ class Reader {
 
     model::System system() {
         const Element& e = document_.root();
-        model::System s;
-        s.at = e.where();
-        s.id = e["id"].text(), s.name = e["name"].text(), s.author = e["author"].text(),
-        s.date = e["date"].text(), s.port = e["port"].text();
-        s.cycles_per_second = e["cylesPerSecond"].number(25);
-        s.sync_plots = e["syncPlots"].flag(false);
+        auto s = located<model::System>(e);
         s.note = note(e);
         s.comments = comments_of(e);
         s.canvas_comments = canvas_parts<model::CanvasComment>(e);
@@ -85,6 +81,25 @@ class Reader {
     }
 
   private:
+    /// A struct with the attributes of the element that describes it.
+    template <class Struct>
+    static Struct of(const Element& e) {
+        Struct out;
+        element_of<Struct>().read(e, out);
+        return out;
+    }
+    /// The same, with the location of the element.
+    template <class Struct>
+    static Struct located(const Element& e) {
+        auto out = of<Struct>(e);
+        out.at = e.where();
+        return out;
+    }
+    /// Makes `out` the alternative that the element describes.
+    static void alternative(const Element& e, auto& out) {
+        read_alternative(e.name(), out, [&](const auto& element, auto& s) { element.read(e, s); });
+    }
+
     std::vector<std::string> comments_of(const Element& e) const {
         const auto it = comments_.find(e);
         return it == comments_.end() ? std::vector<std::string>() : it->second;
@@ -104,17 +119,11 @@ class Reader {
     static std::optional<model::Icon> icon(const Element& e) {
         const Element i = e.child("DiagramIcon");
         if (!i) return std::nullopt;
-        return model::Icon{i["x"].whole(0), i["y"].whole(0), i["width"].whole(50), i["height"].whole(50)};
+        return of<model::Icon>(i);
     }
 
     model::Process process(const Element& e) {
-        model::Process p;
-        p.at = e.where();
-        p.id = e["id"].text(), p.name = e["name"].text(), p.color = e["color"].text(),
-        p.hostname = e["hostname"].text();
-        p.port = e["port"].text(), p.path = e["path"].text();
-        p.module_enabled = e["enableModule"].flag(true);
-        p.path_at = e["path"].where();
+        auto p = located<model::Process>(e);
         p.comments = comments_of(e);
         p.canvas_comments = canvas_parts<model::CanvasComment>(e);
         p.phantoms = canvas_parts<model::Phantom>(e);
@@ -125,13 +134,12 @@ class Reader {
         return p;
     }
 
-    void use(const Element& e, model::TypeUse& u) {
-        u.type = e["name"].text();
-        u.at = e["name"].where();
+    template <class Use>
+    static Use use(const Element& e) {
+        auto u = of<Use>(e);
         u.note = note(e);
-        for (const Element& p : e.children("Parameter"))
-            u.settings.push_back(
-                {p["name"].text(), p["value"].text(), p["name"].where(), p["value"].where()});
+        for (const Element& p : e.children("Parameter")) u.settings.push_back(of<model::Setting>(p));
+        return u;
     }
 
     /// Reports holders in this element whose names are not in `meaningful`.
@@ -149,14 +157,12 @@ class Reader {
         std::vector<model::CrossReference> out;
         for (const Element& h : e.children("XRefHolder"))
             if (h["name"].view == holder)
-                for (const Element& r : h.children("XRef"))
-                    out.push_back({r["name"].text(), r["target"].text(), r.where()});
+                for (const Element& r : h.children("XRef")) out.push_back(located<model::CrossReference>(r));
         return out;
     }
 
     model::ModuleUse module(const Element& e) {
-        model::ModuleUse m;
-        use(e, m);
+        auto m = use<model::ModuleUse>(e);
         only_holders(e, {"InputFromGroup", "OutputToGroup"});
         m.inputs = references(e, "InputFromGroup");
         m.outputs = references(e, "OutputToGroup");
@@ -164,11 +170,9 @@ class Reader {
     }
 
     model::Group group(const Element& e) {
-        model::Group g;
-        g.at = e.where();
-        g.id = e["id"].text(), g.name = e["name"].text(), g.color = e["color"].text();
+        auto g = located<model::Group>(e);
         g.topology = topology(e.child("Topology").children().front());
-        use(e.child("Neuron"), g.neuron);
+        g.neuron = use<model::TypeUse>(e.child("Neuron"));
         g.note = note(e);
         g.icon = icon(e);
         g.comments = comments_of(e);
@@ -177,21 +181,17 @@ class Reader {
 
     model::Topology topology(const Element& e) {
         if (e.name() == "TopologySparse") return model::SparseTopology{points(e)};
-        return model::RectTopology{e["hcount"].whole(1), e["vcount"].whole(1), e["cylinderVert"].flag(false),
-                                   e["cylinderHor"].flag(false)};
+        return of<model::RectTopology>(e);
     }
 
     std::vector<model::Point> points(const Element& e) {
         std::vector<model::Point> out;
-        for (const Element& p : e.children("Point"))
-            out.push_back({p["x"].whole(1), p["y"].whole(1), p.where()});
+        for (const Element& p : e.children("Point")) out.push_back(located<model::Point>(p));
         return out;
     }
 
     model::Population population(const Element& e) {
-        if (e.name() == "Region")
-            return model::Region{e["xstart"].whole(1), e["ystart"].whole(1), e["width"].whole(1),
-                                 e["height"].whole(1), e.where()};
+        if (e.name() == "Region") return located<model::Region>(e);
         if (e.name() == "List") return model::List{points(e), e.where()};
         return model::All{};
     }
@@ -206,11 +206,7 @@ class Reader {
     }
 
     model::Pattern pattern(const Element& e) {
-        if (e.name() == "PatternMapped") {
-            model::MappedPattern mapped;
-            mapped.all = e["type"].view == "all";
-            return populations(e, mapped);
-        }
+        if (e.name() == "PatternMapped") return populations(e, of<model::MappedPattern>(e));
         if (e.name() == "PatternForeach") return populations(e, model::ForeachPattern{});
         model::TuplesPattern tuples;
         for (const Element& t : e.children("Tuple"))
@@ -218,60 +214,21 @@ class Reader {
         return tuples;
     }
 
-    model::Arborization arborization(const Element& s) {
-        model::Arborization a;
-        const std::string_view name = s.name();
-        a.at = s.where();
-        a.direction =
-            s["direction"].view == "PF" ? model::Direction::projective : model::Direction::receptive;
-        a.probability = s["initialization_probability"].number(1);
-        const auto window = [&]<class W>(W) {
-            return W{s["innerwidth"].whole(0), s["innerheight"].whole(0), s["outerwidth"].whole(1),
-                     s["outerheight"].whole(1)};
-        };
-        if (name == "ArbRect")
-            a.shape = model::RectArbor{s["width"].whole(1), s["height"].whole(1)};
-        else if (name == "ArbEllipse")
-            a.shape = model::EllipseArbor{s["width"].whole(1), s["height"].whole(1)};
-        else if (name == "ArbRectWindow")
-            a.shape = window(model::RectWindowArbor{});
-        else if (name == "ArbEllipseWindow")
-            a.shape = window(model::EllipseWindowArbor{});
-        else if (name == "ArbAll")
-            a.shape = model::AllArbor{};
-        else
-            a.shape = model::RandomArbor{s["count"].whole(1)};
+    model::Arborization arborization(const Element& shape) {
+        auto a = located<model::Arborization>(shape);
+        alternative(shape, a.shape);
         return a;
     }
 
     model::DistanceFunction function(const Element& form) {
         model::DistanceFunction f;
-        const std::string_view name = form.name();
-        const double min = form["min"].number(0), max = form["max"].number(1);
         f.at = form.where();
-        if (name == "FunUniform")
-            f.form = model::UniformFunction{form["value"].number(0)};
-        else if (name == "FunLinear")
-            f.form = model::LinearFunction{min, max};
-        else if (name == "FunGaussian")
-            f.form = model::GaussianFunction{min, max, form["sigma"].number(1)};
-        else if (name == "FunBlock")
-            f.form = model::BlockFunction{min, max, form["width"].whole(0), form["height"].whole(0)};
-        else
-            f.form = model::RandomFunction{max};
+        alternative(form, f.form);
         return f;
     }
 
     model::Connection connection(const Element& e) {
-        model::Connection c;
-        c.at = e.where();
-        c.id = e["id"].text(), c.name = e["name"].text(), c.source = e["source"].text(),
-        c.target = e["target"].text();
-        c.source_at = e["source"].where(), c.target_at = e["target"].where();
-        const std::string_view kind = e["type"].view;
-        c.kind = kind == "inhibitory"   ? InputKind::inhibitory
-                 : kind == "modulatory" ? InputKind::modulatory
-                                        : InputKind::excitatory;
+        auto c = located<model::Connection>(e);
         c.arborization.at = c.attenuation.at = c.delay.at = e.where();  // for defaults
         const auto read = [&](const char* name, auto& part, auto reader) {
             if (const Element form = e.child(name))
@@ -284,15 +241,15 @@ class Reader {
         read("AttenuationFunction", c.attenuation, &Reader::function);
         read("DelayFunction", c.delay, &Reader::function);
         if (const Element s = e.child("Synapse")) {
-            c.synapse.emplace();
-            use(s, *c.synapse);
+            c.synapse = use<model::SynapseUse>(s);
             only_holders(s, {"Freedback"});
             c.synapse->feedback = references(s, "Freedback");
         }
         c.note = note(e);
         c.comments = comments_of(e);
         if (const Element l = e.child("DiagramLine")) {
-            c.line = model::Line{l["APSource"].whole(0), l["APTarget"].whole(0), points(l)};
+            c.line = of<model::Line>(l);
+            c.line->vertices = points(l);
             for (auto& v : canvas_parts<PageVertices>(l))
                 (v.of_source ? c.line->source_vertices : c.line->target_vertices) = std::move(v.points);
         }

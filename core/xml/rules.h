@@ -60,6 +60,7 @@ struct AttributeRule {
     std::string name;
     ValueRule value;
     bool required = false;
+    bool omit_default = false;  ///< whether a value that is the default is not written
 };
 
 struct ElementRule;
@@ -129,6 +130,17 @@ inline AttributeRule number(std::string name, std::string doc,
 }
 inline AttributeRule whole(std::string name, std::string doc, double low, double high = 1e6) {
     return {std::move(name), {ValueKind::whole, std::move(doc), low, high}};
+}
+
+/// An attribute that is not written when its value is the default.
+inline AttributeRule omit_default(AttributeRule rule) {
+    rule.omit_default = true;
+    return rule;
+}
+/// A value on which the check of others depends.
+inline AttributeRule decisive(AttributeRule rule) {
+    rule.value.decisive = true;
+    return rule;
 }
 
 /// The unit of a rule's numbers.

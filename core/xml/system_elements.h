@@ -1,0 +1,240 @@
+// The elements and attributes of system and process files, with the original's spellings, and the members of
+// the model that hold their values. The check, the schema, the reference, the reader and the writer use this
+// table.
+#pragma once
+
+#include <tuple>
+
+#include "core/xml/attributes.h"
+
+namespace forage::xml {
+namespace rows {
+
+inline AttributeRule id() { return required(text("id", "unique in the file")); }
+inline AttributeRule name() { return required(text("name", "as shown to people")); }
+inline AttributeRule name_of(Names what, std::string doc) {
+    return naming(what, required(text("name", std::move(doc))));
+}
+inline AttributeRule group(std::string name) {
+    return naming(Names::group, required(text(std::move(name), "id of a group")));
+}
+inline AttributeRule port() {
+    return omit_default(text("port", "port of the original's remote control; without effect"));
+}
+inline AttributeRule color() {
+    return omit_default(text("color", "#RRGGBB, a colour of the original's diagram; without effect"));
+}
+inline AttributeRule cells(std::string name, std::string doc, double low = 1) {
+    return in("cells", required(whole(std::move(name), std::move(doc), low, 1e5)));
+}
+inline AttributeRule coordinate(std::string name, std::string doc) {
+    return required(
+        whole(std::move(name), std::move(doc), -model::farthest_coordinate, model::farthest_coordinate));
+}
+inline AttributeRule min() { return required(number("min", "value at distance 0")); }
+inline AttributeRule max() { return required(number("max", "value at the largest distance")); }
+
+template <class Shape>
+std::vector<AttributeOf<Shape>> extent() {
+    return {{&Shape::width, cells("width", "its extent along x")},
+            {&Shape::height, cells("height", "its extent along y")}};
+}
+template <class Shape>
+std::vector<AttributeOf<Shape>> window() {
+    return {{&Shape::inner_width, cells("innerwidth", "the hole's extent along x", 0)},
+            {&Shape::inner_height, cells("innerheight", "the hole's extent along y", 0)},
+            {&Shape::outer_width, cells("outerwidth", "the extent along x")},
+            {&Shape::outer_height, cells("outerheight", "the extent along y")}};
+}
+
+inline auto system_elements() {
+    using namespace model;
+    constexpr std::string_view functions = "FunUniform FunLinear FunGaussian FunBlock FunRandom",
+                               populations = "All Region List";
+    // The attributes that the elements of all shapes have.
+    const ElementOf<Arborization> spread{
+        .attributes = {
+            {&Arborization::direction,
+             choice("direction", "RF: around the source cell; PF: around the target cell", {"RF", "PF"})},
+            {&Arborization::probability,
+             number("initialization_probability",
+                    "probability that a point of the arborization becomes a synapse", 0, 1)}}};
+    return std::tuple{
+        element<System>(
+            "System", "a brain model: processes and the connections between their groups",
+            "Note? Process Connection",
+            {{&System::id, id()},
+             {&System::name, name()},
+             {&System::author, text("author", "the author")},
+             {&System::date, text("date", "when it was made")},
+             {&System::cycles_per_second,
+              in("cycles/s",
+                 number("cylesPerSecond",
+                        "cycles in a second of the clock; 0 (unthrottled in the original) counts as 25", 0,
+                        1e6))},
+             {&System::sync_plots, flag("syncPlots", "plots follow every cycle; without effect")},
+             {&System::port, port()}}),
+        ElementRule{"iqrEntity",
+                    "a part of a system in a file of its own",
+                    "Process! Connection",
+                    {required(choice("type", "what the part is", {"Process"}))}},
+        element<Process>(
+            "Process", "a part of the system: groups, and possibly the module that ties them to the outside",
+            "Module? Note? DiagramIcon? Group",
+            {{&Process::id, id()},
+             {&Process::name, name()},
+             {&Process::hostname, omit_default(text("hostname", "without effect"))},
+             {&Process::port, port()},
+             {&Process::module_enabled, flag("enableModule", "whether the module runs")},
+             {&Process::path,
+              omit_default(
+                  text("path", "file of a linked process, relative to this file; empty: not linked")),
+              &Process::path_at},
+             {&Process::color, color()}}),
+        element<ModuleUse>("Module", "what ties the process to the outside", "Parameter XRefHolder Note?",
+                           {{&ModuleUse::type, name_of(Names::module, "the module type"), &ModuleUse::at}}),
+        element<Setting>(
+            "Parameter", "a parameter of a type", "",
+            {{&Setting::name, name_of(Names::parameter, "as the type declares it"), &Setting::name_at},
+             {&Setting::value, naming(Names::value, required(text("value", "its value"))),
+              &Setting::value_at}}),
+        ElementRule{"XRefHolder",
+                    "a list of cross references",
+                    "XRef",
+                    {required(decisive(
+                        choice("name", "InputFromGroup and OutputToGroup in a module, Freedback in a synapse",
+                               {"InputFromGroup", "OutputToGroup", "Freedback"})))}},
+        element<CrossReference>(
+            "XRef", "a port of the type and what is connected to it", "",
+            {{&CrossReference::name, name_of(Names::port, "as the type declares it")},
+             {&CrossReference::target,
+              naming(Names::target, required(text("target",
+                                                  "id of a group, or a state of the target's "
+                                                  "neuron; empty: unset")))}}),
+        ElementRule{"Note", "a text for people", ":text"},
+        element<Icon>("DiagramIcon", "place of an icon in the diagram", "",
+                      {{&Icon::x, in("pixels", coordinate("x", "its left edge"))},
+                       {&Icon::y, in("pixels", coordinate("y", "its upper edge"))},
+                       {&Icon::width, in("pixels", whole("width", "of the icon", 0))},
+                       {&Icon::height, in("pixels", whole("height", "of the icon", 0))}}),
+        element<Group>("Group", "cells of one neuron type", "Topology! Neuron! Note? DiagramIcon?",
+                       {{&Group::id, id()}, {&Group::name, name()}, {&Group::color, color()}}),
+        ElementRule{"Topology", "the cells of a group", "TopologyRect TopologySparse", {}, 1},
+        element<RectTopology>(
+            "TopologyRect", "a rectangle of cells", "",
+            {{&RectTopology::width, decisive(cells("hcount", "cells in a row"))},
+             {&RectTopology::height, decisive(cells("vcount", "cells in a column"))},
+             {&RectTopology::wrap_y, flag("cylinderHor", "the upper edge meets the lower one")},
+             {&RectTopology::wrap_x, flag("cylinderVert", "the left edge meets the right one")}}),
+        ElementRule{"TopologySparse", "single cells", "Point+"},
+        element<Point>(
+            "Point", "a cell, or a vertex of a line", "",
+            {{&Point::x, decisive(coordinate("x", "column of a cell, from 1; of a vertex: pixels"))},
+             {&Point::y, decisive(coordinate("y", "row of a cell, from 1; of a vertex: pixels"))}}),
+        element<TypeUse>("Neuron", "the type of a group's cells", "Parameter Note?",
+                         {{&TypeUse::type, name_of(Names::neuron, "the neuron type"), &TypeUse::at}}),
+        element<Connection>(
+            "Connection", "synapses from one group to another",
+            "Pattern? Arborization? AttenuationFunction? DelayFunction? Synapse? Note? DiagramLine?",
+            {{&Connection::id, id()},
+             {&Connection::name, name()},
+             {&Connection::kind,
+              choice("type", "how it acts on its target", {"excitatory", "inhibitory", "modulatory"})},
+             {&Connection::source, group("source"), &Connection::source_at},
+             {&Connection::target, group("target"), &Connection::target_at}}),
+        ElementRule{"Pattern", "which cells are paired", "PatternMapped PatternForeach PatternTuples", {}, 1},
+        ElementOf<MappedPattern>{
+            .name = "PatternMapped",
+            .doc = "the smaller population laid over the larger",
+            .content = populations,
+            .attributes = {{&MappedPattern::all,
+                            choice("type",
+                                   "pair with the centre of the projection, or with all cells under it",
+                                   {"center", "all"})}},
+            .choose = 2,
+            .or_none = true},
+        ElementRule{"PatternForeach", "every source cell with every target cell", populations, {}, 2, true},
+        ElementRule{"PatternTuples", "cell by cell", "Tuple+"},
+        ElementRule{"Tuple", "every source of it with every target of it", "SourceList! TargetList!"},
+        ElementRule{"SourceList", "cells of the source", "Point+"},
+        ElementRule{"TargetList", "cells of the target", "Point+"},
+        ElementRule{"All", "every cell"},
+        element<Region>("Region", "a rectangle of cells", "",
+                        {{&Region::x, cells("xstart", "its leftmost column")},
+                         {&Region::y, cells("ystart", "its uppermost row")},
+                         {&Region::width, cells("width", "its columns")},
+                         {&Region::height, cells("height", "its rows")}}),
+        ElementRule{"List", "single cells", "Point+"},
+        ElementRule{"Arborization",
+                    "how a pair spreads into synapses",
+                    "ArbRect ArbEllipse ArbRectWindow ArbEllipseWindow ArbAll ArbRandom",
+                    {},
+                    1},
+        spread,
+        element<RectArbor>("ArbRect", "a rectangle", "", extent<RectArbor>(), spread.rules()),
+        element<EllipseArbor>("ArbEllipse", "an ellipse", "", extent<EllipseArbor>(), spread.rules()),
+        element<RectWindowArbor>("ArbRectWindow", "a rectangle with a hole", "", window<RectWindowArbor>(),
+                                 spread.rules()),
+        element<EllipseWindowArbor>("ArbEllipseWindow", "an ellipse with a hole", "",
+                                    window<EllipseWindowArbor>(), spread.rules()),
+        element<AllArbor>("ArbAll", "every cell", "", {}, spread.rules()),
+        element<RandomArbor>("ArbRandom", "cells chosen at random", "",
+                             {{&RandomArbor::count, cells("count", "how many for each pair", 0)}},
+                             spread.rules()),
+        ElementRule{"AttenuationFunction", "what is lost over the distance", functions, {}, 1},
+        ElementRule{"DelayFunction", "cycles lost over the distance", functions, {}, 1},
+        element<UniformFunction>(
+            "FunUniform", "the same everywhere", "",
+            {{&UniformFunction::value, required(number("value", "attenuation, or delay in cycles"))}}),
+        element<LinearFunction>("FunLinear", "rises with the distance", "",
+                                {{&LinearFunction::min, min()}, {&LinearFunction::max, max()}}),
+        element<GaussianFunction>(
+            "FunGaussian", "rises with the distance like a Gaussian upside down", "",
+            {{&GaussianFunction::min, min()},
+             {&GaussianFunction::max, max()},
+             {&GaussianFunction::sigma, in("cells", required(number("sigma", "its width in cells")))}}),
+        element<BlockFunction>(
+            "FunBlock", "min near, max far", "",
+            {{&BlockFunction::min, min()},
+             {&BlockFunction::max, max()},
+             {&BlockFunction::width,
+              in("cells", required(whole("width", "diameter of what is near, in cells", 0)))},
+             {&BlockFunction::height, omit_default(whole("height", "without effect", 0))}}),
+        element<RandomFunction>("FunRandom", "random between 0 and max", "", {{&RandomFunction::max, max()}}),
+        element<SynapseUse>(
+            "Synapse", "the type of a connection's synapses", "Parameter XRefHolder Note?",
+            {{&SynapseUse::type, name_of(Names::synapse, "the synapse type"), &SynapseUse::at}}),
+        element<Line>(
+            "DiagramLine", "the line that draws a connection", "Point",
+            {{&Line::source_anchor,
+              whole("APSource", "where it leaves the source's icon, 16 points around it", 0, 15)},
+             {&Line::target_anchor, whole("APTarget", "where it meets the target's icon", 0, 15)}})};
+}
+
+}  // namespace rows
+
+/// The table, in the order of the reference.
+inline const auto& system_elements() {
+    static const auto elements = rows::system_elements();
+    return elements;
+}
+
+/// The element that describes a `Struct`.
+template <class Struct>
+const ElementOf<Struct>& element_of() {
+    return std::get<ElementOf<Struct>>(system_elements());
+}
+
+/// Makes `out` the alternative that elements called `name` describe, and calls read(element, alternative).
+/// Returns whether there is one.
+template <class... Structs, class Read>
+bool read_alternative(std::string_view name, std::variant<Structs...>& out, Read read) {
+    const auto try_one = [&]<class Struct>(const ElementOf<Struct>& element) {
+        if (name != element.name) return false;
+        read(element, out.template emplace<Struct>());
+        return true;
+    };
+    return (try_one(element_of<Structs>()) || ...);
+}
+
+}  // namespace forage::xml
