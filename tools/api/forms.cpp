@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/run/input_error.h"
+#include "core/xml/system_elements.h"
 
 namespace forage::editing {
 namespace {
@@ -46,17 +47,56 @@ Population population_from(const json& pattern, const char* side) {
     no_form("a population", form);
 }
 
-json form(const char* type, json values) { return {{"type", type}, {"values", std::move(values)}}; }
+/// The values of the attributes of `s`, by their names in a file.
+template <class Struct>
+json values_of(const Struct& s) {
+    json out = json::object();
+    for (const auto& a : xml::element_of<Struct>().attributes)
+        std::visit([&](const auto& value) { out[a.rule.name] = value; }, xml::value_of(a, s));
+    return out;
+}
 
-/// The values of a form; what is absent has the default of a member.
-struct Values {
-    const json& all;
-    int whole(const char* name, int otherwise) const {
-        const auto it = all.find(name);
-        return it == all.end() ? otherwise : whole_from(*it, model::most_cells);
+/// The alternative that a variant holds, with its values.
+template <class... Structs>
+json form_of(const std::variant<Structs...>& variant) {
+    return std::visit(
+        []<class Struct>(const Struct& s) -> json {
+            return {{"type", xml::element_of<Struct>().name}, {"values", values_of(s)}};
+        },
+        variant);
+}
+
+/// Sets the members for which there are values.
+template <class Struct>
+void read_values(const json& values, Struct& s) {
+    for (const auto& a : xml::element_of<Struct>().attributes) {
+        const auto it = values.find(a.rule.name);
+        if (it == values.end()) continue;
+        const auto& choices = a.rule.value.choices;
+        std::visit(
+            [&]<class T>(T Struct::*member) {
+                if constexpr (std::is_same_v<T, int>)
+                    s.*member = whole_from(*it, model::most_cells);
+                else if constexpr (!std::is_enum_v<T>)
+                    it->get_to(s.*member);
+                else if (const auto c = std::ranges::find(choices, it->template get<std::string>());
+                         c != choices.end())
+                    s.*member = static_cast<T>(c - choices.begin());
+            },
+            a.member);
     }
-    double number(const char* name, double otherwise) const { return all.value(name, otherwise); }
-};
+}
+
+/// The values of a form; an object without members when it has none.
+json values_in(const json& form) { return form.value("values", json::object()); }
+
+/// Reads the alternative of which a form has the values.
+void read_form(const json& form, auto& variant, const char* what) {
+    const auto type = form.at("type").get<std::string>();
+    const json values = values_in(form);
+    if (!xml::read_alternative(type, variant, [&](const auto&, auto& s) { read_values(values, s); }))
+        no_form(what, type);
+}
 
 }  // namespace
 
@@ -105,96 +145,24 @@ Pattern pattern_from(const json& pattern) {
 }
 
 json json_of(const Arborization& a) {
-    const auto window = [](const char* type, const auto& w) {
-        return form(type, {{"innerwidth", w.inner_width},
-                           {"innerheight", w.inner_height},
-                           {"outerwidth", w.outer_width},
-                           {"outerheight", w.outer_height}});
-    };
-    json out;
-    if (const auto* rect = std::get_if<RectArbor>(&a.shape))
-        out = form("ArbRect", {{"width", rect->width}, {"height", rect->height}});
-    else if (const auto* ellipse = std::get_if<EllipseArbor>(&a.shape))
-        out = form("ArbEllipse", {{"width", ellipse->width}, {"height", ellipse->height}});
-    else if (const auto* frame = std::get_if<RectWindowArbor>(&a.shape))
-        out = window("ArbRectWindow", *frame);
-    else if (const auto* ring = std::get_if<EllipseWindowArbor>(&a.shape))
-        out = window("ArbEllipseWindow", *ring);
-    else if (const auto* random = std::get_if<RandomArbor>(&a.shape))
-        out = form("ArbRandom", {{"count", random->count}});
-    else
-        out = form("ArbAll", json::object());
-    out["values"]["direction"] = a.direction == Direction::projective ? "PF" : "RF";
-    out["values"]["initialization_probability"] = a.probability;
+    json out = form_of(a.shape);
+    out["values"].update(values_of(a));
     return out;
 }
 
 Arborization arborization_from(const json& arborization) {
     Arborization out;
     if (arborization.is_null()) return out;
-    const auto type = arborization.at("type").get<std::string>();
-    const json none = json::object();
-    const auto it = arborization.find("values");
-    const Values v{it == arborization.end() ? none : *it};
-    out.direction = v.all.value("direction", "RF") == "PF" ? Direction::projective : Direction::receptive;
-    out.probability = v.number("initialization_probability", 1);
-    const auto window = [&](auto w) {
-        w.inner_width = v.whole("innerwidth", 0), w.inner_height = v.whole("innerheight", 0);
-        w.outer_width = v.whole("outerwidth", 1), w.outer_height = v.whole("outerheight", 1);
-        return w;
-    };
-    if (type == "ArbRect")
-        out.shape = RectArbor{v.whole("width", 1), v.whole("height", 1)};
-    else if (type == "ArbEllipse")
-        out.shape = EllipseArbor{v.whole("width", 1), v.whole("height", 1)};
-    else if (type == "ArbRectWindow")
-        out.shape = window(RectWindowArbor());
-    else if (type == "ArbEllipseWindow")
-        out.shape = window(EllipseWindowArbor());
-    else if (type == "ArbRandom")
-        out.shape = RandomArbor{v.whole("count", 1)};
-    else if (type == "ArbAll")
-        out.shape = AllArbor{};
-    else
-        no_form("an arborization", type);
+    read_values(values_in(arborization), out);
+    read_form(arborization, out.shape, "an arborization");
     return out;
 }
 
-json json_of(const DistanceFunction& function) {
-    if (const auto* uniform = std::get_if<UniformFunction>(&function.form))
-        return form("FunUniform", {{"value", uniform->value}});
-    if (const auto* linear = std::get_if<LinearFunction>(&function.form))
-        return form("FunLinear", {{"min", linear->min}, {"max", linear->max}});
-    if (const auto* gaussian = std::get_if<GaussianFunction>(&function.form))
-        return form("FunGaussian",
-                    {{"min", gaussian->min}, {"max", gaussian->max}, {"sigma", gaussian->sigma}});
-    if (const auto* block = std::get_if<BlockFunction>(&function.form))
-        return form(
-            "FunBlock",
-            {{"min", block->min}, {"max", block->max}, {"width", block->width}, {"height", block->height}});
-    return form("FunRandom", {{"max", std::get<RandomFunction>(function.form).max}});
-}
+json json_of(const DistanceFunction& function) { return form_of(function.form); }
 
 DistanceFunction function_from(const json& function) {
     DistanceFunction out;
-    if (function.is_null()) return out;
-    const auto type = function.at("type").get<std::string>();
-    const json none = json::object();
-    const auto it = function.find("values");
-    const Values v{it == function.end() ? none : *it};
-    const double min = v.number("min", 0), max = v.number("max", 1);
-    if (type == "FunUniform")
-        out.form = UniformFunction{v.number("value", 0)};
-    else if (type == "FunLinear")
-        out.form = LinearFunction{min, max};
-    else if (type == "FunGaussian")
-        out.form = GaussianFunction{min, max, v.number("sigma", 1)};
-    else if (type == "FunBlock")
-        out.form = BlockFunction{min, max, v.whole("width", 0), v.whole("height", 0)};
-    else if (type == "FunRandom")
-        out.form = RandomFunction{max};
-    else
-        no_form("a function of the distance", type);
+    if (!function.is_null()) read_form(function, out.form, "a function of the distance");
     return out;
 }
 
