@@ -5,32 +5,33 @@
 #include <fmt/format.h>
 
 #include "core/model/lookup.h"
+#include "core/model/members.h"
 
 namespace forage::model {
 namespace {
 
-/// The system without what only people see, and without the values of parameters.
-System skeleton(System s) {
-    const auto bare = [](TypeUse& use) { use.settings.clear(), use.note.reset(); };
-    s.author = s.date = s.port = "";
-    s.note.reset(), s.comments.clear(), s.canvas_comments.clear(), s.instructions.clear();
-    s.sync_plots = false;
-    for (auto& p : s.processes) {
-        p.color = p.hostname = p.port = p.path = "";
-        p.note.reset(), p.icon.reset(), p.comments.clear(), p.placeholder.clear();
-        p.canvas_comments.clear(), p.phantoms.clear();
-        if (p.module) bare(*p.module);
-        for (auto& g : p.groups) {
-            g.color.clear(), g.note.reset(), g.icon.reset(), g.comments.clear();
-            bare(g.neuron);
-        }
-    }
-    for (auto& c : s.connections) {
-        c.note.reset(), c.line.reset(), c.comments.clear();
-        c.terse = c.linked = false;
-        if (c.synapse) bare(*c.synapse);
-    }
-    return s;
+// Whether a run of `a` can become one of `b` without being built anew.
+template <class T>
+bool same_structure(const T& a, const T& b) {
+    return a == b;
+}
+template <HasMembers Struct>
+bool same_structure(const Struct& a, const Struct& b);
+template <class T>
+bool same_structure(const std::vector<T>& a, const std::vector<T>& b) {
+    return std::ranges::equal(a, b, [](const T& x, const T& y) { return same_structure(x, y); });
+}
+template <class T>
+bool same_structure(const std::optional<T>& a, const std::optional<T>& b) {
+    return a && b ? same_structure(*a, *b) : a.has_value() == b.has_value();
+}
+template <HasMembers Struct>
+bool same_structure(const Struct& a, const Struct& b) {
+    bool same = true;
+    each_member<Struct>([&](const auto& m) {
+        if (m.effect == Effect::rebuild) same = same && same_structure(a.*m.member, b.*m.member);
+    });
+    return same;
 }
 
 const Setting* find(const TypeUse& use, const std::string& name) {
@@ -68,7 +69,7 @@ const std::vector<Parameter>* parameters(const Type* type) {
 
 std::optional<std::vector<Assignment>> parameter_changes(const System& before, const System& after,
                                                          const Registry& registry) {
-    if (!(skeleton(before) == skeleton(after))) return std::nullopt;
+    if (!same_structure(before, after)) return std::nullopt;
     Changes out;
     for (std::size_t i = 0; i < after.processes.size(); ++i) {
         const auto &was = before.processes[i], &is = after.processes[i];

@@ -1,11 +1,13 @@
 #include "core/model/merge.h"
 
 #include <algorithm>
+#include <concepts>
 
 #include <fmt/format.h>
 
 #include "core/model/build.h"
 #include "core/model/lookup.h"
+#include "core/model/members.h"
 
 namespace forage::model {
 namespace {
@@ -14,25 +16,54 @@ class Merger {
   public:
     explicit Merger(std::vector<std::string>& conflicts) : conflicts_(conflicts) {}
 
+    /// Merges all members of a struct, whose name in messages is `where`.
+    template <HasMembers Struct>
+    void members(const std::string& where, const Struct& base, const Struct& mine, Struct& theirs) {
+        each_member<Struct>(
+            [&](const auto& m) { member(where, m.label, base.*m.member, mine.*m.member, theirs.*m.member); });
+    }
+
+  private:
     /// The value that both changes give.
     template <class T>
-    void member(const std::string& where, const char* what, const T& base, const T& mine, T& theirs) {
+    void member(const std::string& where, const char* label, const T& base, const T& mine, T& theirs) {
         if (mine == base || mine == theirs) return;
-        if (!(theirs == base)) conflicts_.push_back(fmt::format("{} of {}", what, where));
+        if (!(theirs == base)) conflicts_.push_back(fmt::format("{} of {}", label, where));
         theirs = mine;
+    }
+    void member(const std::string& where, const char*, const TypeUse& base, const TypeUse& mine,
+                TypeUse& theirs) {
+        type_use(where, where, base, mine, theirs);
+    }
+    /// A use of a type that may be absent.
+    template <std::derived_from<TypeUse> Use>
+    void member(const std::string& where, const char* label, const std::optional<Use>& base,
+                const std::optional<Use>& mine, std::optional<Use>& theirs) {
+        if (base && mine && theirs)
+            type_use(where, fmt::format("{} of {}", label, where), *base, *mine, *theirs);
+        else
+            member<std::optional<Use>>(where, label, base, mine, theirs);
+    }
+    template <class Item>
+    requires HasMembers<Item> || std::same_as<Item, Phantom>
+    void member(const std::string&, const char*, const std::vector<Item>& base, const std::vector<Item>& mine,
+                std::vector<Item>& theirs) {
+        items(base, mine, theirs);
     }
 
     /// Parameters belong to a type: when only one side has changed the type, all of the use is that side's,
-    /// and further changes of the other side are a conflict. `what` names the use; `references` merges the
-    /// cross references of uses of one type.
-    template <class Use, class References>
-    void type_use(const std::string& what, const Use& base, const Use& mine, Use& theirs,
-                  References references) {
+    /// and further changes of the other side are a conflict. `what` names the use, `where` its owner.
+    template <class Use>
+    void type_use(const std::string& where, const std::string& what, const Use& base, const Use& mine,
+                  Use& theirs) {
         auto note = theirs.note;
         member(what, "the note of the type", base.note, mine.note, note);
         if (mine.type == theirs.type) {
             settings(what, base, mine, theirs);
-            references(base, mine, theirs);
+            each_member<Use>([&]<class Struct, class T>(const Member<Struct, T>& m) {
+                if constexpr (!std::same_as<Struct, TypeUse>)  // cross references
+                    member(where, m.label, base.*m.member, mine.*m.member, theirs.*m.member);
+            });
         } else if (!says_the_same(mine, base)) {
             if (!says_the_same(theirs, base))
                 conflicts_.push_back(fmt::format("the type of {} or its parameters", what));
@@ -45,12 +76,10 @@ class Merger {
     static bool says_the_same(const Use& a, const Use& b) {
         const auto content = [](Use use) {
             use.note.reset();
-            const auto by_name = [](auto& all) {
-                std::ranges::sort(all, {}, [](const auto& i) { return i.name; });
-            };
-            by_name(use.settings);
-            if constexpr (requires { use.feedback; }) by_name(use.feedback);
-            if constexpr (requires { use.inputs; }) by_name(use.inputs), by_name(use.outputs);
+            each_member<Use>([&]<class S, class T>(const Member<S, T>& m) {
+                if constexpr (requires(T & all) { all.front().name; })
+                    std::ranges::sort(use.*m.member, {}, [](const auto& i) { return i.name; });
+            });
             return use;
         };
         return content(a) == content(b);
@@ -79,71 +108,16 @@ class Merger {
                 theirs.settings.push_back({name, *is, {}, {}});
         }
     }
-    /// A use of a type that may be absent.
-    template <class Use, class References>
-    void use(const std::string& where, const char* what, const std::optional<Use>& base,
-             const std::optional<Use>& mine, std::optional<Use>& theirs, References references) {
-        if (!base || !mine || !theirs) return member(where, what, base, mine, theirs);
-        type_use(fmt::format("{} of {}", what, where), *base, *mine, *theirs, references);
-    }
-
-    void item(const Group& base, const Group& mine, Group& theirs) {
-        const std::string where = fmt::format("group '{}'", trim(base.name));
-        member(where, "the name", base.name, mine.name, theirs.name);
-        member(where, "the colour", base.color, mine.color, theirs.color);
-        member(where, "the topology", base.topology, mine.topology, theirs.topology);
-        member(where, "the note", base.note, mine.note, theirs.note);
-        member(where, "the place", base.icon, mine.icon, theirs.icon);
-        type_use(where, base.neuron, mine.neuron, theirs.neuron, [](auto&&...) {});
-    }
-    void item(const Process& base, const Process& mine, Process& theirs) {
-        const std::string where = fmt::format("process '{}'", trim(base.name));
-        if (base.linked() || mine.linked() || theirs.linked()) {
-            if (!(mine == base)) member(where, "the link", base, mine, theirs);
-            return;
+    template <class Item>
+    void item(const Item& base, const Item& mine, Item& theirs) {
+        if constexpr (std::same_as<Item, Phantom>) {
+            member(where(base), "the place", base, mine, theirs);
+        } else {
+            if constexpr (std::same_as<Item, Process>)
+                if (base.linked() || mine.linked() || theirs.linked())
+                    return member(where(base), "the link", base, mine, theirs);
+            members(where(base), base, mine, theirs);
         }
-        member(where, "the name", base.name, mine.name, theirs.name);
-        member(where, "the colour", base.color, mine.color, theirs.color);
-        member(where, "the host", base.hostname, mine.hostname, theirs.hostname);
-        member(where, "the port", base.port, mine.port, theirs.port);
-        member(where, "the enabling of the module", base.module_enabled, mine.module_enabled,
-               theirs.module_enabled);
-        member(where, "the note", base.note, mine.note, theirs.note);
-        member(where, "the place", base.icon, mine.icon, theirs.icon);
-        use(where, "the module", base.module, mine.module, theirs.module,
-            [&](const ModuleUse& b, const ModuleUse& m, ModuleUse& t) {
-                member(where, "the inputs of the module", b.inputs, m.inputs, t.inputs);
-                member(where, "the outputs of the module", b.outputs, m.outputs, t.outputs);
-            });
-        items(base.groups, mine.groups, theirs.groups);
-        items(base.canvas_comments, mine.canvas_comments, theirs.canvas_comments);
-        items(base.phantoms, mine.phantoms, theirs.phantoms);
-    }
-    void item(const CanvasComment& base, const CanvasComment& mine, CanvasComment& theirs) {
-        const std::string where = title_of(base);
-        member(where, "the text", base.text, mine.text, theirs.text);
-        member(where, "the colour", base.color, mine.color, theirs.color);
-        member(where, "the place", base.box, mine.box, theirs.box);
-    }
-    void item(const Phantom& base, const Phantom& mine, Phantom& theirs) {
-        member(title_of(base), "the place", base, mine, theirs);
-    }
-    void item(const Connection& base, const Connection& mine, Connection& theirs) {
-        const std::string where = fmt::format("connection '{}'", trim(base.name));
-        member(where, "the name", base.name, mine.name, theirs.name);
-        member(where, "the source", base.source, mine.source, theirs.source);
-        member(where, "the target", base.target, mine.target, theirs.target);
-        member(where, "the kind", base.kind, mine.kind, theirs.kind);
-        member(where, "the pattern", base.pattern, mine.pattern, theirs.pattern);
-        member(where, "the arborization", base.arborization, mine.arborization, theirs.arborization);
-        member(where, "the attenuation", base.attenuation, mine.attenuation, theirs.attenuation);
-        member(where, "the delay", base.delay, mine.delay, theirs.delay);
-        member(where, "the note", base.note, mine.note, theirs.note);
-        member(where, "the line", base.line, mine.line, theirs.line);
-        use(where, "the synapse", base.synapse, mine.synapse, theirs.synapse,
-            [&](const SynapseUse& b, const SynapseUse& m, SynapseUse& t) {
-                member(where, "the feedback", b.feedback, m.feedback, t.feedback);
-            });
     }
 
     template <class Item>
@@ -176,7 +150,6 @@ class Merger {
             }
     }
 
-  private:
     static const std::string& id_of(const auto& item) { return item.id; }
     static const std::string& id_of(const Phantom& phantom) { return phantom.group; }
     static std::string title_of(const auto& item) { return fmt::format("'{}'", trim(item.name)); }
@@ -187,6 +160,11 @@ class Merger {
         return fmt::format("the phantom of group '{}'", phantom.group);
     }
 
+    static std::string where(const Process& process) { return "process " + title_of(process); }
+    static std::string where(const Group& group) { return "group " + title_of(group); }
+    static std::string where(const Connection& connection) { return "connection " + title_of(connection); }
+    static std::string where(const auto& item) { return title_of(item); }
+
     std::vector<std::string>& conflicts_;
 };
 
@@ -196,20 +174,7 @@ Merge merge(const System& base, const System& mine, const System& theirs) {
     Merge out{theirs, {}};
     Merger merger(out.conflicts);
     System& s = out.system;
-    merger.member("the system", "the name", base.name, mine.name, s.name);
-    merger.member("the system", "the author", base.author, mine.author, s.author);
-    merger.member("the system", "the date", base.date, mine.date, s.date);
-    merger.member("the system", "the cycles per second", base.cycles_per_second, mine.cycles_per_second,
-                  s.cycles_per_second);
-    merger.member("the system", "the port", base.port, mine.port, s.port);
-    merger.member("the system", "the synchronisation of plots", base.sync_plots, mine.sync_plots,
-                  s.sync_plots);
-    merger.member("the system", "the instructions before it", base.instructions, mine.instructions,
-                  s.instructions);
-    merger.member("the system", "the note", base.note, mine.note, s.note);
-    merger.items(base.processes, mine.processes, s.processes);
-    merger.items(base.connections, mine.connections, s.connections);
-    merger.items(base.canvas_comments, mine.canvas_comments, s.canvas_comments);
+    merger.members("the system", base, mine, s);
     const GroupIndex groups(s);
     std::erase_if(s.connections, [&](const Connection& c) {  // a group of it was removed here, or there
         return !groups.find(c.source).group || !groups.find(c.target).group;
