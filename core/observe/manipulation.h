@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/base/member_count.h"
 #include "core/observe/condition.h"
 #include "core/observe/observer.h"
 
@@ -32,6 +33,12 @@ class Manipulation final : public Observer {
         std::optional<std::uint64_t> times{};      ///< how often the list is played; empty for endlessly
         bool backwards = false;                    ///< from the last pattern to the first
         std::optional<Condition> from{}, until{};  ///< empty: from the first cycle, until the last
+
+        /// Reads or writes all settings but the conditions.
+        void checkpoint(Archive& archive) {
+            static_assert(member_count<Settings>() == 10);
+            archive(group, mode, patterns, starts, every, step, times, backwards);
+        }
     };
     explicit Manipulation(Settings settings);
     const Settings& settings() const { return s_; }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/member_count.h"
 #include "core/observe/manipulation.h"
 #include "core/run/checkpoint_file.h"
 #include "core/run/module_files.h"
@@ -26,11 +27,10 @@ enum class Saved : std::uint8_t { recording, manipulation, measures };
 
 void keep(Archive& archive, std::string& source, std::uint64_t& every) { archive(source, every); }
 
-void keep(Archive& archive, Manipulation::Settings& s) {
-    archive(s.group, s.mode, s.patterns, s.starts, s.every, s.step, s.times, s.backwards);
+void keep(Archive& archive, model::Measure& m) {
+    static_assert(member_count<model::Measure>() == 6);  // the location is of no use in another process
+    archive(m.name, m.kind, m.what.text, m.of.text, m.last);
 }
-
-void keep(Archive& archive, model::Measure& m) { archive(m.name, m.kind, m.what.text, m.of.text, m.last); }
 
 /// Writes one observer. Returns false for those that open() adds itself, and for films.
 bool save(Archive& archive, const Observer& observer) {
@@ -47,7 +47,7 @@ bool save(Archive& archive, const Observer& observer) {
                manipulation && !manipulation->settings().from && !manipulation->settings().until) {
         begin(Saved::manipulation);
         auto settings = manipulation->settings();
-        keep(archive, settings);
+        archive(settings);
     } else if (const auto* measures = dynamic_cast<const RunMeasures*>(&observer)) {
         begin(Saved::measures);
         auto specs = measures->specs();
@@ -74,7 +74,7 @@ void restore(Archive& archive, Run& run) {
         run.record(source, every);
     } else if (kind == Saved::manipulation) {
         Manipulation::Settings settings;
-        keep(archive, settings);
+        archive(settings);
         run.add(std::make_unique<Manipulation>(std::move(settings)));
     } else {
         std::uint64_t count = 0;

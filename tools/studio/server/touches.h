@@ -37,7 +37,7 @@ class Touches final : public Observer {
         if (!archive.loading()) {
             for (auto& [group, manipulation] : groups_) {
                 Settings s = manipulation.settings();
-                archive(s.group, s.mode, s.patterns, s.every, s.step, s.times, s.backwards);
+                archive(s);
                 manipulation.checkpoint(archive);
             }
             return;
@@ -45,7 +45,7 @@ class Touches final : public Observer {
         groups_.clear();
         for (std::uint64_t i = 0; i < count; ++i) {
             Settings s;
-            archive(s.group, s.mode, s.patterns, s.every, s.step, s.times, s.backwards);
+            archive(s);
             observe::Manipulation loaded(s);
             loaded.checkpoint(archive);
             groups_.insert_or_assign(s.group, std::move(loaded));
