@@ -30,19 +30,17 @@ const std::vector<Parameter>* parameters_of(const Type* type) {
 
 std::vector<Owner> find_owners(const System& system, const Registry& registry, std::string_view where) {
     std::vector<Owner> owners;
-    const auto add_group = [&](const Group& g) {
-        owners.push_back(
-            {Assignment::Owner::group, g.id, &g.neuron, parameters_of(registry.neuron(g.neuron.type))});
-    };
-    for (const auto& entry : find_groups(system, where)) add_group(*entry.group);
-    if (const auto* by_id = GroupIndex(system).find(where).group; owners.empty() && by_id) add_group(*by_id);
+    for (const auto& [process, group] : find_groups(system, where))
+        owners.push_back({Assignment::Owner::group, group->id, &group->neuron,
+                          parameters_of(registry.neuron(group->neuron.type))});
     if (!owners.empty()) return owners;
-    for (const auto& p : system.processes)
-        if (trim(p.name) == trim(where) || p.id == where)
-            owners.push_back({Assignment::Owner::process, p.id, p.module ? &*p.module : nullptr,
-                              p.module ? parameters_of(registry.module(p.module->type)) : nullptr});
-    for (const auto& c : system.connections)
-        if (c.synapse && (trim(c.name) == trim(where) || c.id == where))
+    for (const int i : items_named(system.processes, where)) {
+        const Process& p = system.processes[i];
+        owners.push_back({Assignment::Owner::process, p.id, p.module ? &*p.module : nullptr,
+                          p.module ? parameters_of(registry.module(p.module->type)) : nullptr});
+    }
+    for (const int i : items_named(system.connections, where))
+        if (const Connection& c = system.connections[i]; c.synapse)
             owners.push_back({Assignment::Owner::connection, c.id, &*c.synapse,
                               parameters_of(registry.synapse(c.synapse->type))});
     return owners;

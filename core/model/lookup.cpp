@@ -70,22 +70,17 @@ std::string suggest_group(std::string_view wanted, const std::vector<std::string
 }
 
 std::vector<GroupIndex::Entry> find_groups(const System& system, std::string_view wanted) {
-    std::string_view id;
-    std::string_view plain = trim(wanted);
-    std::vector<GroupIndex::Entry> out;
-    const auto collect = [&] {
-        for (const auto& p : system.processes)
-            for (const auto& g : p.groups) {
-                const bool name_fits = plain.empty() || plain_path(p, g) == plain;
-                if (name_fits && (id.empty() ? !plain.empty() : g.id == id)) out.push_back({&p, &g});
-            }
+    struct Named {
+        std::string path;
+        const std::string& id;
+        GroupIndex::Entry entry;
     };
-    collect();  // a name may contain '#'
-    if (const auto hash = wanted.rfind('#'); out.empty() && hash != std::string_view::npos) {
-        id = wanted.substr(hash + 1);
-        plain = trim(wanted.substr(0, hash));
-        collect();
-    }
+    std::vector<Named> groups;
+    auto paths = group_paths(system);
+    for (const auto& p : system.processes)
+        for (const auto& g : p.groups) groups.push_back({std::move(paths[groups.size()]), g.id, {&p, &g}});
+    std::vector<GroupIndex::Entry> out;
+    for (const int i : groups_named(groups, wanted)) out.push_back(groups[i].entry);
     return out;
 }
 

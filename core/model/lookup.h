@@ -1,4 +1,4 @@
-// Searches for items of a system by the names that users give them.
+// Groups of a system by their ids and paths.
 #pragma once
 
 #include <string>
@@ -6,6 +6,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "core/model/names.h"
 #include "core/model/system.h"
 
 namespace forage::model {
@@ -33,8 +34,7 @@ std::string path(const System& system, const Process& process, const Group& grou
 /// The paths of all groups, in file order.
 std::vector<std::string> group_paths(const System& system);
 
-/// The groups that `path` names, which is "Process/Group", "Process/Group#id" or "#id". There are several
-/// when it is ambiguous.
+/// The groups that `path` names, as groups_named() resolves it. There are several when it is ambiguous.
 std::vector<GroupIndex::Entry> find_groups(const System& system, std::string_view path);
 
 /// A hint for a path that names no group: the groups that have this name, or the most similar paths.
@@ -46,8 +46,4 @@ std::string resolved(const std::string& path, const Location& at);
 
 /// The beginning of the first line of a text, by which messages name it.
 std::string first_words(std::string_view text);
-
-/// `text` without blanks at its ends.
-std::string_view trim(std::string_view text);
-
 }  // namespace forage::model

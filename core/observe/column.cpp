@@ -13,33 +13,6 @@ namespace {
 
 constexpr std::array<std::string_view, input_kinds> inputs = {"excIn", "inhIn", "modIn"};
 
-/// The groups that `path` may mean: the group with exactly this path, all groups with this path without
-/// "#id", or the group with this id, written alone, as "#id" or as "Process/Group#id".
-std::vector<int> groups_named(const engine::Layout& s, std::string_view path) {
-    path = model::trim(path);
-    std::vector<int> out;
-    for (int g = 0; g < std::ssize(s.groups); ++g)
-        if (s.groups[g].path == path) return {g};
-    for (int g = 0; g < std::ssize(s.groups); ++g) {
-        const auto& [own, id, shape, type] = s.groups[g];
-        const std::string suffix = "#" + id;
-        const std::string plain = own.ends_with(suffix) ? own.substr(0, own.size() - suffix.size()) : own;
-        if (path == plain || path == id || path == suffix || path == plain + suffix) out.push_back(g);
-    }
-    return out;
-}
-
-/// The connections with this name, or the one with this id.
-std::vector<int> connections_named(const engine::Layout& s, std::string_view name) {
-    name = model::trim(name);
-    std::vector<int> out;
-    for (int c = 0; c < std::ssize(s.connections); ++c) {
-        if (s.connections[c].id == name) return {c};
-        if (model::trim(s.connections[c].name) == name) out.push_back(c);
-    }
-    return out;
-}
-
 /// Splits "Name:state" at its last colon. Without one, the state is empty.
 std::pair<std::string_view, std::string_view> split_state(std::string_view text) {
     const auto colon = text.rfind(':');
@@ -51,15 +24,16 @@ std::pair<std::string_view, std::string_view> split_state(std::string_view text)
 
 bool names_connection(const engine::Layout& s, const expression::Piece& piece) {
     const std::string_view text = piece.text, name = split_state(text).first;
-    return groups_named(s, text).empty() && groups_named(s, name).empty() &&
-           !(connections_named(s, name).empty() && connections_named(s, text).empty());
+    return model::groups_named(s.groups, text).empty() && model::groups_named(s.groups, name).empty() &&
+           !(model::items_named(s.connections, name).empty() &&
+             model::items_named(s.connections, text).empty());
 }
 
 std::optional<ColumnRef> find_synapses(const engine::Layout& s, const expression::Piece& piece,
                                        const expression::Context& context) {
     auto [name, state] = split_state(piece.text);
-    auto found = connections_named(s, name);
-    if (found.empty()) name = piece.text, state = {}, found = connections_named(s, name);
+    auto found = model::items_named(s.connections, name);
+    if (found.empty()) name = piece.text, state = {}, found = model::items_named(s.connections, name);
     if (found.size() != 1) {
         std::vector<std::string> ids;
         for (const int c : found) ids.push_back(s.connections[c].id);
@@ -97,16 +71,18 @@ std::optional<ColumnRef> find_column(const engine::Layout& s, const expression::
                                      const expression::Context& context) {
     const std::string_view text = piece.text;
     std::string_view path = text, state;
-    auto found = groups_named(s, path);  // a name may contain ':'
+    auto found = model::groups_named(s.groups, path);  // a name may contain ':'
     if (const auto colon = text.rfind(':'); found.empty() && colon != std::string_view::npos) {
         path = text.substr(0, colon);
         state = model::trim(text.substr(colon + 1));
-        found = groups_named(s, path);
+        found = model::groups_named(s.groups, path);
     }
     if (found.size() != 1) {
         if (const auto open = text.rfind('('); found.empty() && text.ends_with(')') && open != text.npos) {
             // A name may contain parentheses. Here only the rest of the text names a group.
-            const auto names_group = [&](std::string_view part) { return !groups_named(s, part).empty(); };
+            const auto names_group = [&](std::string_view part) {
+                return !model::groups_named(s.groups, part).empty();
+            };
             const auto before = text.substr(0, open), inside = text.substr(open + 1, text.size() - open - 2);
             if (names_group(before) || names_group(before.substr(0, before.rfind(':')))) {
                 context.error(piece.at + open, fmt::format("'{}' does not name cells", text.substr(open)),

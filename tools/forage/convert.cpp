@@ -45,11 +45,10 @@ std::string about_import(model::System& system, const std::string& id) {
 }
 
 std::string process_id(const model::System& system, const std::string& wanted, Diagnostics& diagnostics) {
+    const auto found = model::items_named(system.processes, wanted);
+    if (!found.empty()) return system.processes[found.front()].id;
     std::vector<std::string> names;
-    for (const auto& p : system.processes) {
-        if (p.id == wanted || model::trim(p.name) == model::trim(wanted)) return p.id;
-        names.emplace_back(model::trim(p.name));
-    }
+    for (const auto& p : system.processes) names.emplace_back(model::trim(p.name));
     diagnostics.error({}, fmt::format("--extract: there is no process '{}'", wanted), suggest(wanted, names));
     return {};
 }

@@ -17,9 +17,8 @@ namespace forage::plot {
 namespace {
 
 const model::Process* find_process(const model::System& system, std::string_view name) {
-    for (const auto& p : system.processes)
-        if (model::trim(p.name) == name || p.id == name) return &p;
-    return nullptr;
+    const auto found = model::items_named(system.processes, name);
+    return found.empty() ? nullptr : &system.processes[found.front()];
 }
 
 std::string_view name_of(InputKind kind) {
@@ -118,14 +117,11 @@ ConnectionSynapses synapses_of(const model::Connection& c, const model::System& 
 
 const model::Connection* find_connection(const model::System& system, std::string_view name,
                                          std::string_view option, Diagnostics& diagnostics, Location at) {
-    std::vector<const model::Connection*> found;
+    const auto found = model::items_named(system.connections, name);
+    if (found.size() == 1) return &system.connections[found.front()];
     std::vector<std::string> names, ids;
-    for (const auto& c : system.connections) {
-        names.emplace_back(model::trim(c.name));
-        if (c.id == name) return &c;
-        if (model::trim(c.name) == name) found.push_back(&c), ids.push_back(c.id);
-    }
-    if (found.size() == 1) return found.front();
+    for (const auto& c : system.connections) names.emplace_back(model::trim(c.name));
+    for (const int i : found) ids.push_back(system.connections[i].id);
     if (found.empty())
         diagnostics.error(at, fmt::format("{}: there is no connection '{}'", option, name),
                           suggest(name, names));

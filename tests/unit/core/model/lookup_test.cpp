@@ -30,8 +30,19 @@ TEST_CASE("A group is found by its id alone, and a name may contain '#'") {
     CHECK(model::find_groups(system, "#b").at(0).group->id == "b");
     CHECK(model::find_groups(system, "P/A#1").at(0).group->id == "a");
     CHECK(model::find_groups(system, "P/A#1#a").at(0).group->id == "a");
+    CHECK(model::find_groups(system, "b").at(0).group->id == "b");
     CHECK(model::find_groups(system, "").empty());
     CHECK(model::find_groups(system, "#").empty());
+}
+
+TEST_CASE("An id names one process or connection, and a name all that have it") {
+    struct Item {
+        std::string id, name;
+    };
+    const std::vector<Item> items{{"a", "A "}, {"b", "a"}, {"c", "A"}};
+    CHECK(model::items_named(items, " A") == std::vector{0, 2});
+    CHECK(model::items_named(items, "a") == std::vector{0});
+    CHECK(model::items_named(items, "d").empty());
 }
 
 TEST_CASE("An index by id finds each group with its process, and nothing else") {
