@@ -10,7 +10,7 @@
 #include "core/base/exception_message.h"
 #include "core/base/simd.h"
 #include "core/engine/finite.h"
-#include "core/engine/simulation.h"
+#include "core/engine/run_error.h"
 
 namespace forage::engine {
 namespace {

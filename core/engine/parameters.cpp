@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/named_file.h"
-#include "core/engine/simulation.h"
+#include "core/engine/run_error.h"
 
 namespace forage::engine {
 namespace {

@@ -2,17 +2,17 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/engine/options.h"
 #include "core/engine/plan/demand.h"
 #include "core/engine/plan/layout.h"
+#include "core/engine/run_error.h"
 #include "core/model/edit.h"
 #include "core/model/system.h"
 #include "core/types/registry.h"
@@ -22,12 +22,6 @@ namespace forage::engine {
 /// Whether this build can share cycles among threads (CMake option FORAGE_THREADS). Otherwise every
 /// simulation runs on one thread.
 bool has_threads();
-
-/// A type's update or a module's start failed; the message names the type, its place in the system and the
-/// cycle.
-class RunError : public std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 /// Where a system began to diverge: a state of a cell that an update left NaN or infinite.
 struct NotFinite {
@@ -51,20 +45,8 @@ struct Unchanged;
 /// the phases. Activities that the demand lets users overwrite may be overwritten after update_groups().
 class Simulation {
   public:
-    struct Options {
-        std::uint64_t seed = 1;
-        int threads = 1;  ///< at most, to share a cycle; the numbers do not depend on it
-        /// Cycles that take less than this on one thread are not shared, ns; with 0 all are shared.
-        double parallel_threshold_ns = 5'000;
-        /// No part of a group that is shared takes less than this on one thread, ns.
-        double min_task_ns = 1'250;
-        Environment* environment = nullptr;  ///< given to the modules; must outlive the simulation
-        std::string directory = {};          ///< of the results, for the modules
-        /// Opens the file `name` of the module of a process. Without it, modules cannot open files.
-        std::function<std::ostream&(const std::string& process, const std::string& name)> open = {};
-        bool general_forms =
-            false;  ///< compile every connection to a list of synapses (slower, same numbers)
-    };
+    using Options = engine::Options;
+
     /// Checks a system and compiles it for what `demand` needs: groups on which nothing of it depends, nor a
     /// module, are pruned. They are not updated, nothing is delivered to them, and plastic connections to
     /// them do not learn; all other numbers are the same as without pruning. Empty when `diagnostics` got an

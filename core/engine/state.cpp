@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/exception_message.h"
-#include "core/engine/simulation.h"
+#include "core/engine/run_error.h"
 
 namespace forage::engine {
 namespace {

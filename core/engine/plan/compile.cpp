@@ -42,8 +42,8 @@ class Budget {
 
 class Compiler {
   public:
-    Compiler(const model::System& system, Layout layout, const Demand& demand,
-             const Simulation::Options& options, Diagnostics& diagnostics)
+    Compiler(const model::System& system, Layout layout, const Demand& demand, const Options& options,
+             Diagnostics& diagnostics)
         : system_(system),
           order_(system),
           demand_(demand),
@@ -286,7 +286,7 @@ class Compiler {
     const model::System& system_;
     UpdateOrder order_;
     const Demand& demand_;
-    const Simulation::Options& options_;
+    const Options& options_;
     Forms forms_;
     Diagnostics& diagnostics_;
     std::unique_ptr<Plan> plan_;
@@ -298,8 +298,8 @@ class Compiler {
 
 }  // namespace
 
-Compiled compile(const model::System& system, Layout layout, const Demand& demand,
-                 const Simulation::Options& options, Diagnostics& diagnostics) {
+Compiled compile(const model::System& system, Layout layout, const Demand& demand, const Options& options,
+                 Diagnostics& diagnostics) {
     return Compiler(system, std::move(layout), demand, options, diagnostics).run();
 }
 

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/engine/kernels/forms.h"
+#include "core/engine/options.h"
 #include "core/engine/plan/demand.h"
 #include "core/engine/plan/plan.h"
-#include "core/engine/simulation.h"
 #include "core/engine/state.h"
 
 namespace forage::engine {
@@ -19,8 +19,8 @@ struct Compiled {
 
 /// Compiles a system for a demand; `layout` is that of the system. The result is empty when `diagnostics` got
 /// an error, for example because the system needs more than `most_bytes` or more memory than there is.
-Compiled compile(const model::System& system, Layout layout, const Demand& demand,
-                 const Simulation::Options& options, Diagnostics& diagnostics);
+Compiled compile(const model::System& system, Layout layout, const Demand& demand, const Options& options,
+                 Diagnostics& diagnostics);
 
 /// What a demand does not need: groups and connections by their numbers, outputs by module and port.
 struct Pruned {
