@@ -88,7 +88,11 @@ void read_values(const json& values, Struct& s) {
 }
 
 /// The values of a form; an object without members when it has none.
-json values_in(const json& form) { return form.value("values", json::object()); }
+json values_in(const json& form) {
+    json values = form.value("values", json::object());
+    if (!values.is_object()) throw InputError(fmt::format("the values {} are not an object", values.dump()));
+    return values;
+}
 
 /// Reads the alternative of which a form has the values.
 void read_form(const json& form, auto& variant, const char* what) {
