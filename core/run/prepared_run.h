@@ -23,19 +23,19 @@ namespace forage {
 /// A run that was created from a RunSpec, with all its observers.
 struct PreparedRun {
     RunSpec spec;
-    DirectoryHold hold;  ///< the lock of the directory of results, if there is one
+    DirectoryHold hold = {};  ///< the lock of the directory of results, if there is one
     Run run;
     StopCondition stop;
-    const observe::Schedule* schedule;  ///< an observer of the run, like the next two
-    RunMeasures* measures;
-    CheckpointWriter* checkpoints;               ///< null in a run without checkpoints
-    RemoteControl* remote;                       ///< null in a run without remote control
-    const observe::GroupStatistics* statistics;  ///< null unless the spec asks for an explanation
+    const observe::Schedule* schedule = nullptr;  ///< an observer of the run, like the next two
+    RunMeasures* measures = nullptr;
+    CheckpointWriter* checkpoints = nullptr;               ///< null in a run without checkpoints
+    RemoteControl* remote = nullptr;                       ///< null in a run without remote control
+    const observe::GroupStatistics* statistics = nullptr;  ///< null unless the spec asks for an explanation
     /// Returns sentences on what drove the robots, after the run; empty like `statistics`.
-    std::function<std::vector<std::string>()> commands;
-    std::vector<std::string> plugins;  ///< paths of the loaded files
+    std::function<std::vector<std::string>()> commands = [] { return std::vector<std::string>(); };
+    std::vector<std::string> plugins = {};  ///< paths of the loaded files
     /// Names and versions of libraries, for run.json.
-    std::vector<std::pair<std::string, std::string>> libraries;
+    std::vector<std::pair<std::string, std::string>> libraries = {};
 };
 
 /// The outcome of a run.
