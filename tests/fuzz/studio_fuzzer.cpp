@@ -64,7 +64,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             const bool ack = command.is_object() && command.value("command", json()) == "ack";
             small.replies = 0;
             small.session.message(1, message);
-            test::holds(small.replies == (ack ? 0 : 1), "a message has one reply");
+            test::holds(small.replies == 1 || (ack && small.replies == 0), "a message has one reply");
         }
         text.remove_prefix(std::min(end + 1, text.size()));
     }

@@ -1,9 +1,7 @@
-// The commands of pages: one table of names and functions.
+// Executes the commands of pages. Each command is an entry of a table: commands/command.h.
 #pragma once
 
 #include <stdexcept>
-#include <string>
-#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -23,10 +21,7 @@ class NothingLeft : public InputError {
     using InputError::InputError;
 };
 
-/// Executes a command and returns its result. Throws InputError, Conflict, and json::exception for members
-/// that are missing or of another type.
-nlohmann::json execute_command(Session& session, int client, const nlohmann::json& command);
-/// The names of all commands.
-std::vector<std::string> command_names();
+/// Checks the arguments of a command, executes it and returns its result. Throws InputError and Conflict.
+nlohmann::json execute_command(Session& session, int client, nlohmann::json message);
 
 }  // namespace forage::studio

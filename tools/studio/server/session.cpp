@@ -17,6 +17,7 @@
 #include "tools/api/sources.h"
 #include "tools/plot/world_map.h"
 #include "tools/studio/server/commands.h"
+#include "tools/studio/server/commands/command.h"
 #include "tools/studio/server/plot_layout.h"
 #include "tools/studio/server/problems.h"
 
@@ -248,14 +249,11 @@ void Session::message(int client, std::string_view text) {
         } else {
             id = command.value("id", json());
             check_depth(command);
-            if (command.value("command", json()) == "ack") {
-                const auto seq = command.value("seq", json());
-                if (const auto it = clients_.find(client); it != clients_.end() && seq.is_number_unsigned())
-                    it->second.acknowledge(seq.get<std::uint32_t>());
+            reply = execute(client, command);
+            if (command.value("command", json()) == "ack" && reply["ok"] == true) {
                 pages_time_ += clock_now() - begun;
                 return;
             }
-            reply = execute(client, command);
         }
     } catch (const InputError& e) {
         reply = {{"ok", false}, {"problems", problems_of(e.diagnostics())}};
@@ -285,6 +283,23 @@ json Session::execute(int client, const json& command) {
     } catch (const std::exception& e) {
         return {{"ok", false}, {"problems", problem(e.what())}};
     }
+}
+
+void Session::apply(const json& action) {
+    find_command(action.at("command").get<std::string>()).repeat(*this, action);
+}
+
+void Session::act(const json& action, const std::optional<json>& undo, json told) {
+    repeat_actions();
+    apply(action);
+    ++generation_, ++version_;
+    status_due_ = true;
+    const std::string title = told.at("title");
+    history_.act(run_->cycle(), action, title);
+    if (undo) add_undo({*undo, action, title});
+    told["type"] = "action", told["generation"] = generation_, told["cycle"] = run_->cycle();
+    told["command"] = action.at("command"), told["undoable"] = undo.has_value();
+    tell(told);
 }
 
 void Session::repeat_actions() {

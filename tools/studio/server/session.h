@@ -77,8 +77,7 @@ class Session {
     bool running() const { return running_; }
     std::uint64_t generation() const { return generation_; }  ///< grows with each accepted action
 
-  private:
-    friend struct Commands;
+    // ---- for commands and their topics (commands/) ----
     struct Undo {
         json undo, redo;  ///< commands that change the run; null when the document alone says what changes
         std::string title;
@@ -147,10 +146,10 @@ class Session {
     /// Adds the parameters that were set in systems beside the document.
     void set_beside_document(RunInput& input) const;
     void rebind();  ///< subscribes for all pages anew: the run is another one
-    /// Changes the run as a command says, without undo. Throws InputError.
-    void apply(const json& command);
-    /// Applies and notes a command, and tells the pages.
-    void act(const json& command, const std::optional<json>& undo, json told);
+    /// Changes the run as an action says, without undo. Throws InputError.
+    void apply(const json& action);
+    /// Applies and notes an action, and tells the pages.
+    void act(const json& action, const std::optional<json>& undo, json told);
     void tell(const json& message);
     /// An action that is not a step of undo: a recording, a file that is saved, or a run that begins anew,
     /// with which something may have ended.
@@ -189,8 +188,6 @@ class Session {
                                                   const std::vector<std::string>& texts) const;
     /// The run has these parameters of the document.
     void note_parameters(const std::vector<std::string>& assignments);
-    /// Takes a step of the document back, or forth.
-    void step_document(bool back);
     void tell_document();
     void note_opening();  ///< the system of the document is another one now
     /// Gives a description of parameters the values of the saved file. Returns false for an item of another

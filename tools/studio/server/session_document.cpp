@@ -235,8 +235,6 @@ void Session::note_parameters(const std::vector<std::string>& assignments) {
     }
 }
 
-void Session::step_document(bool back) { back ? document_->undo() : document_->redo(); }
-
 void Session::follow_document(const std::string& title, const std::string& text_before,
                               const json& operations) {
     std::optional<Equivalent> forms;

@@ -1,10 +1,13 @@
+#include <filesystem>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
 #include "core/observe/row_file.h"
 #include "core/run/recordings.h"
-#include "tools/studio/server/command_functions.h"
+#include "tools/studio/server/commands/shared.h"
 
 namespace forage::studio {
 namespace {
@@ -25,8 +28,7 @@ std::unique_ptr<observe::RowFile> continued(observe::RecordingFormat format, con
                                             const observe::RowFileHeader& header) {
     if (format != observe::RecordingFormat::csv && format != observe::RecordingFormat::sampler)
         throw InputError("rows can be appended to a .csv or a .dat file", "record a sequence of files");
-    auto anew = observe::open_row_file(format, partial(file), header);
-    anew->close();
+    observe::open_row_file(format, partial(file), header)->close();
     const std::string head = read_file(partial(file)), old = read_file(file);
     if (!old.starts_with(head) || !old.ends_with('\n')) {
         fs::remove(partial(file));
@@ -37,46 +39,23 @@ std::unique_ptr<observe::RowFile> continued(observe::RecordingFormat format, con
     return observe::open_row_file(format, partial(file), header, observe::RowFilePosition{0, old.size()});
 }
 
-}  // namespace
-
-json Commands::sample() {
-    if (s.sampler_) throw InputError("the sampler runs already", "stop it first");
-    const bool automatic = c.value("automatic", false);
-    json how = c;
-    // The second run would find the file of the first one.
-    if (automatic && !how.contains("mode")) how["mode"] = "sequence";
-    if (automatic && how["mode"] == "new")
-        throw InputError("a file for each run is one of a sequence, or it is overwritten or appended to",
-                         "sequence, overwrite or append");
-    if (automatic && !s.running_) {
-        s.sampler_waits_ = how;
-        s.status_due_ = true;
-        return {{"file", nullptr}};
-    }
-    begin_sampling(how);
-    if (automatic) s.sampler_waits_ = how;
-    return {{"file", s.sampler_->what.file}};
-}
-
-void Commands::begin_sampling(const json& how) {
+/// Begins a recording as the arguments of the command `sample` say. Throws InputError.
+void begin_sampling(Session& s, const json& how) {
     std::string file = how.at("file").get<std::string>();
-    const auto mode = how.value("mode", "new");
+    const auto mode = how.at("mode").get<std::string>();
     const auto sources = how.at("sources").get<std::vector<std::string>>();
+    const auto every = how.at("every").get<std::uint64_t>();
     if (sources.empty()) throw InputError("the sampler needs a source");
     if (mode == "sequence")
         file = next_of_sequence(file);
     else if (mode == "new" && fs::exists(file))
         throw FileExists(fmt::format("'{}' exists", file),
                          "overwrite it, append to it, or choose another name");
-    else if (mode != "new" && mode != "overwrite" && mode != "append")
-        throw InputError(fmt::format("'{}' is not a way to write a file", mode),
-                         "new, overwrite, append or sequence");
-    const auto every = whole(how, "every", 1, 1, 1'000'000);
     std::vector<model::RecordingSpec> specs;
     for (const auto& source : sources)
         specs.push_back({{source + "=" + fs::path(file).filename().string()}, every});
     Diagnostics diagnostics;
-    auto files = recorded_files(specs, {}, run().layout(), diagnostics);
+    auto files = recorded_files(specs, {}, s.run().layout(), diagnostics);
     check_output(file, "samples.csv", diagnostics);
     throw_errors(diagnostics);
     if (files.size() != 1 || !files.front().archive.empty())
@@ -85,10 +64,10 @@ void Commands::begin_sampling(const json& how) {
     for (const auto& source : files.front().sources) header.sources.push_back(source.what());
     header.every = every;
     Session::Sampler sampler;
-    sampler.what = {sources, file, every, run().cycle()};
-    if (const auto cycles = whole(how, "cycles", 0, 1, 1'000'000'000'000)) {
-        sampler.left = cycles;
-        sampler.what.until = run().cycle() + cycles - 1;
+    sampler.what = {sources, file, every, s.run().cycle()};
+    if (const auto cycles = how.find("cycles"); cycles != how.end()) {
+        sampler.left = cycles->get<std::uint64_t>();
+        sampler.what.until = s.run().cycle() + *sampler.left - 1;
     }
     auto rows = mode == "append" && fs::exists(file)
                     ? continued(files.front().format, file, header)
@@ -100,19 +79,66 @@ void Commands::begin_sampling(const json& how) {
     s.tell_action("sample", "record into " + file, of_sampling(s.sampler_->what));
 }
 
-void Commands::begin_waiting_sampler() {
-    if (s.sampler_waits_.is_null() || s.sampler_ || s.sampled_) return;
-    begin_sampling(s.sampler_waits_);
-    s.sampled_ = true;
+json begin_sampler(Session& s, const Request& r) {
+    if (s.sampler_) throw InputError("the sampler runs already", "stop it first");
+    const bool automatic = r.flag("automatic");
+    json how = r.all();
+    // The second run would find the file of the first one.
+    if (!r.has("mode")) how["mode"] = automatic ? "sequence" : "new";
+    if (automatic && how["mode"] == "new")
+        throw InputError("a file for each run is one of a sequence, or it is overwritten or appended to",
+                         "sequence, overwrite or append");
+    if (automatic && !s.running_) {
+        s.sampler_waits_ = how;
+        s.status_due_ = true;
+        return {{"file", nullptr}};
+    }
+    begin_sampling(s, how);
+    if (automatic) s.sampler_waits_ = how;
+    return {{"file", s.sampler_->what.file}};
 }
 
-json Commands::sample_stop() {
+json stop_sampler(Session& s, const Request&) {
     if (!s.sampler_ && s.sampler_waits_.is_null()) throw InputError("the sampler does not run");
     json out = {{"file", nullptr}, {"rows", 0}};
     if (s.sampler_) out = {{"file", s.sampler_->what.file}, {"rows", s.sampler_->rows}};
     s.sampler_waits_ = nullptr, s.status_due_ = true;
     s.close_sampler();
     return out;
+}
+
+}  // namespace
+
+void begin_waiting_sampler(Session& s) {
+    if (s.sampler_waits_.is_null() || s.sampler_ || s.sampled_) return;
+    begin_sampling(s, s.sampler_waits_);
+    s.sampled_ = true;
+}
+
+std::vector<Command> sampling_commands() {
+    return {
+        {.name = "sample",
+         .doc = "Records into a file (`.csv`, `.dat`, `.npy`, `.h5`). `append` needs a `.csv` or `.dat` with "
+                "the "
+                "same sources; `sequence` writes `NAME_001.csv`, ...",
+         .arguments = {{"file", text()},
+                       {"sources", list(text())},
+                       optional("every", whole(1, 1'000'000), 1),
+                       optional("cycles", whole(1, 1'000'000'000'000), nullptr,
+                                "by default until it is stopped"),
+                       optional("mode", choice({"new", "overwrite", "append", "sequence"}), nullptr,
+                                "by default `new`, with `automatic` `sequence`"),
+                       optional(
+                           "automatic", boolean(), false,
+                           "begins with the next cycle after each `stop` and ends with it; its `mode` is not "
+                           "`new`")},
+         .result = "{ file: string | null }",
+         .apply = begin_sampler},
+        {.name = "sample_stop",
+         .doc = "Ends the recording, and an automatic one.",
+         .result = "{ file: string | null; rows: number }",
+         .apply = stop_sampler},
+    };
 }
 
 }  // namespace forage::studio

@@ -8,7 +8,7 @@
 #include "tools/api/describe_json.h"
 #include "tools/api/forms.h"
 #include "tools/api/operations.h"
-#include "tools/studio/server/command_functions.h"
+#include "tools/studio/server/commands/shared.h"
 #include "tools/studio/server/problems.h"
 
 namespace forage::studio {
@@ -18,7 +18,7 @@ using editing::carry_out;
 using editing::json_of;
 using editing::title_of;
 
-constexpr std::size_t most_pairs = 200'000;  ///< in a reply
+constexpr std::size_t max_pairs = 200'000;  ///< in a reply
 constexpr const char* signs[] = {"excitatory", "inhibitory", "modulatory"};
 
 std::string trimmed(const std::string& text) { return std::string(model::trim(text)); }
@@ -156,127 +156,197 @@ struct Description {
     }
 };
 
+/// Whether the last step is one of the document alone, so that the next one may join it.
+bool joins_document(const Session& s) {
+    return s.undo_.empty() || (s.undo_.back().document && s.undo_.back().undo.is_null());
+}
+
+/// Follows a change of the document: a step, or one that joined the step before.
+json follow_change(Session& s, bool step, const std::string& title, const std::string& text_before,
+                   const json& operations = json::array()) {
+    if (step) return follow_edit(s, title, operations.empty() ? "" : text_before, operations);
+    if (s.document_->text() != text_before) {
+        s.follow_document(title, operations.empty() ? "" : text_before, operations);
+        s.tell_document();
+    }
+    return {{"generation", s.generation_}};
+}
+
+json edit_document(Session& s, const Request& r) {
+    auto& document = *s.document_;
+    const auto& operations = r["operations"];
+    if (operations.empty()) throw InputError("there is no operation");
+    std::string title = r.text("title");
+    if (title.empty()) {
+        title = title_of(operations.front(), document.system());
+        if (operations.size() > 1) title += fmt::format(" and {} more", operations.size() - 1);
+    }
+    json ids = json::array();
+    const std::string before = document.text();
+    const bool step = document.edit(
+        [&](model::System& system) {
+            for (const auto& o : operations)
+                ids.push_back(carry_out(o, system, s.run().registry(), document.path()));
+        },
+        title, joins_document(s) ? r.text("merge") : "");
+    json with_ids = operations;
+    for (std::size_t i = 0; i < with_ids.size(); ++i)
+        if (ids[i].is_string() && with_ids[i].value("do", "").starts_with("add_")) with_ids[i]["id"] = ids[i];
+    json out = follow_change(s, step, title, before, with_ids);
+    out["ids"] = std::move(ids);
+    return out;
+}
+
+/// The number of synapses of a connection of the document; 0 when it cannot be built.
+std::size_t count_synapses(Session& s, const std::string& connection) {
+    if (s.current_) {  // the run has counted them
+        const auto& all = s.run().layout().connections;
+        const auto it = std::ranges::find(all, connection, &engine::Layout::Connection::id);
+        if (it != all.end()) return s.run().simulation().synapses(static_cast<int>(it - all.begin()));
+    }
+    try {
+        return describe_synapses(s.document_->system(), connection, s.run().seed(), 0)["synapses"];
+    } catch (const InputError&) {
+        return 0;
+    }
+}
+
+/// The id of an item that a command names.
+std::string item_id(const Session& s, const std::string& item) {
+    return item == "system" ? s.document_->system().id : item;
+}
+
+json describe_item(Session& s, const Request& r) {
+    const auto id = r.text("item");
+    const auto& document = *s.document_;
+    const auto& registry = s.run().registry();
+    json out = Description{document.system(), document.saved_system(), registry}.of(id);
+    if (out.is_null()) {  // another system that runs, too; it has no document
+        const auto all = s.shown_system();
+        out = Description{all, all, registry}.of(id);
+        if (out.is_null()) throw InputError(fmt::format("there is no item with the id '{}'", id));
+        out["other_system"] = true;
+        if (out["kind"] != "comment") out["parameters"] = describe_item_parameters(s, id)["parameters"];
+    }
+    if (out["kind"] == "connection") out["synapses"] = count_synapses(s, id);
+    out["id"] = id;
+    const bool here = !out.value("linked", false) && !out.contains("other_system") &&
+                      (document.readable() || out["kind"] == "system");
+    out["text"] = here ? document.item_text(item_id(s, id)) : "";
+    return out;
+}
+
+json replace_item_text(Session& s, const Request& r) {
+    const auto item = r.text("item");
+    const auto title = "edit the text of " + (item == "system" ? "the system" : item);
+    const auto before = s.document_->text();
+    const bool step = s.document_->replace_item_text(item_id(s, item), r.text("text"), title);
+    return follow_change(s, step, title, before);
+}
+
+json check_item_text(Session& s, const Request& r) {
+    const auto found = s.document_->check_item_text(item_id(s, r.text("item")), r.text("text"),
+                                                    s.run().registry(), s.run().environment());
+    return {{"problems", problems_of(found)}};
+}
+
+json replace_text(Session& s, const Request& r) {
+    const std::string title = "edit the text of the system", before = s.document_->text();
+    const bool step =
+        s.document_->write_text(r.text("text"), title, joins_document(s) ? r.text("merge") : "");
+    return follow_change(s, step, title, before);
+}
+
+json copy_items(Session& s, const Request& r) {
+    const auto connections = r.flag("connections") ? model::Between::all : model::Between::named;
+    return {{"text", xml::write_system(model::copy(s.document_->system(), r.texts("ids"), connections))}};
+}
+
+constexpr const char* connection_parts[] = {"pattern", "arborization", "attenuation", "delay"};
+
+json preview_connection(Session& s, const Request& r) {
+    model::System system = s.document_->system();
+    const auto id = r.text("connection");
+    for (const char* part : connection_parts)
+        if (r.has(part))
+            carry_out({{"do", part}, {"id", id}, {part, r[part]}}, system, s.run().registry(), "");
+    return describe_synapses(system, id, s.run().seed(), max_pairs);
+}
+
 }  // namespace
 
-Document& Commands::document() { return *s.document_; }
-
-json Commands::edited(const std::string& title, const std::string& text_before, const json& operations) {
+json follow_edit(Session& s, const std::string& title, const std::string& text_before,
+                 const json& operations) {
     s.add_undo({nullptr, nullptr, title, true});
     s.follow_document(title, text_before, operations);
     s.tell_document();
     return {{"generation", s.generation_}};
 }
 
-bool Commands::joins_document() const {
-    return s.undo_.empty() || (s.undo_.back().document && s.undo_.back().undo.is_null());
-}
-
-json Commands::edit() {
-    const auto& operations = c.at("operations");
-    if (!operations.is_array() || operations.empty()) throw InputError("there is no operation");
-    std::string title = c.value("title", "");
-    if (title.empty()) {
-        title = title_of(operations.front(), document().system());
-        if (operations.size() > 1) title += fmt::format(" and {} more", operations.size() - 1);
-    }
-    json ids = json::array();
-    const std::string before = document().text();
-    const bool step = document().edit(
-        [&](model::System& system) {
-            for (const auto& o : operations)
-                ids.push_back(carry_out(o, system, run().registry(), document().path()));
-        },
-        title, joins_document() ? c.value("merge", "") : "");
-    json named = operations;
-    for (std::size_t i = 0; i < named.size(); ++i)
-        if (ids[i].is_string() && named[i].value("do", "").starts_with("add_")) named[i]["id"] = ids[i];
-    if (step) {
-        edited(title, before, named);
-    } else if (document().text() != before) {  // it joined the step before
-        s.follow_document(title, before, named);
-        s.tell_document();
-    }
-    return {{"ids", std::move(ids)}, {"generation", s.generation_}};
-}
-
-std::size_t Commands::synapses_of(const std::string& connection) {
-    if (s.current_) {  // the run has counted them
-        const auto& all = run().layout().connections;
-        const auto it = std::ranges::find(all, connection, &engine::Layout::Connection::id);
-        if (it != all.end()) return run().simulation().synapses(static_cast<int>(it - all.begin()));
-    }
-    try {
-        return describe_synapses(document().system(), connection, run().seed(), 0)["synapses"];
-    } catch (const InputError&) {
-        return 0;
-    }
-}
-
-json Commands::item() {
-    const auto id = c.at("item").get<std::string>();
-    const auto& system = document().system();
-    json out = Description{system, document().saved_system(), run().registry()}.of(id);
-    if (out.is_null()) {  // another system that runs, too; it has no document
-        const auto all = s.shown_system();
-        out = Description{all, all, run().registry()}.of(id);
-        if (out.is_null()) throw InputError(fmt::format("there is no item with the id '{}'", id));
-        out["other_system"] = true;
-        if (out["kind"] != "comment") out["parameters"] = parameters()["parameters"];
-    }
-    if (out["kind"] == "connection") out["synapses"] = synapses_of(id);
-    out["id"] = id;
-    const bool here = !out.value("linked", false) && !out.contains("other_system") &&
-                      (document().readable() || out["kind"] == "system");
-    out["text"] = here ? document().item_text(id == "system" ? system.id : id) : "";
-    return out;
-}
-
-json Commands::item_text() {
-    const auto id = c.at("item").get<std::string>();
-    const auto title = "edit the text of " + (id == "system" ? "the system" : id);
-    if (!document().replace_item_text(id == "system" ? document().system().id : id,
-                                      c.at("text").get<std::string>(), title))
-        return {{"generation", s.generation_}};
-    return edited(title);
-}
-
-json Commands::item_check() {
-    const auto id = c.at("item").get<std::string>();
-    const auto found =
-        document().check_item_text(id == "system" ? document().system().id : id,
-                                   c.at("text").get<std::string>(), run().registry(), run().environment());
-    return {{"problems", problems_of(found)}};
-}
-
-json Commands::text_edit() {
-    const std::string title = "edit the text of the system", before = document().text();
-    const bool step = document().write_text(c.at("text").get<std::string>(), title,
-                                            joins_document() ? c.value("merge", "") : "");
-    if (step) return edited(title);
-    if (document().text() != before) {  // it joined the step before
-        s.follow_document(title);
-        s.tell_document();
-    }
-    return {{"generation", s.generation_}};
-}
-
-json Commands::copy() {
-    const auto ids = c.at("ids").get<std::vector<std::string>>();
-    const auto connections = c.value("connections", true) ? model::Between::all : model::Between::named;
-    return {{"text", xml::write_system(model::copy(document().system(), ids, connections))}};
-}
-
-json Commands::types() { return describe_types(run().registry()); }
-
-json Commands::vocabulary() { return describe_vocabulary(); }
-
-json Commands::preview() {
-    model::System system = document().system();
-    const auto id = c.at("connection").get<std::string>();
-    for (const char* part : {"pattern", "arborization", "attenuation", "delay"})
-        if (c.contains(part))
-            carry_out({{"do", part}, {"id", id}, {part, c[part]}}, system, run().registry(), "");
-    return describe_synapses(system, id, run().seed(), most_pairs);
+std::vector<Command> editing_commands() {
+    const Member item{"item", text(), "an id, or `system`"};
+    const auto merge = optional("merge", text(), "", "joins the step before when that has the same name");
+    const std::string generation = "{ generation: number }";
+    std::vector<Member> previewed = {{"connection", text(), "an id"}};
+    for (const char* part : connection_parts)
+        previewed.push_back(optional(part, any(), nullptr, "by default the present one"));
+    return {
+        {.name = "edit",
+         .doc = "Carries out [operations](#operations), all of them or none, as one step. Returns the id "
+                "that each "
+                "one made, a list of ids, or null.",
+         .arguments = {{"operations", list(record({}, "Operation"))}, optional("title", text(), ""), merge},
+         .result = "{ ids: (string | string[] | null)[]; generation: number }",
+         .changes_run = true,
+         .apply = edit_document},
+        {.name = "item",
+         .doc =
+             "Describes an item and its text. What is `linked` is in the file of a linked process, what has "
+             "`other_system` runs beside the system that is edited; both have no text and refuse operations.",
+         .arguments = {item},
+         .result = "EditItem",
+         .apply = describe_item},
+        {.name = "item_text",
+         .doc = "Replaces the text of the element of an item.",
+         .arguments = {item, {"text", text()}},
+         .result = generation,
+         .changes_run = true,
+         .apply = replace_item_text},
+        {.name = "item_check",
+         .doc = "Returns what would be wrong with a text of the element of an item. Lines and columns are "
+                "those of "
+                "`text`, and 0 when something elsewhere becomes wrong.",
+         .arguments = {item, {"text", text()}},
+         .result = "{ problems: Problem[] }",
+         .apply = check_item_text},
+        {.name = "text_edit",
+         .doc = "Replaces the whole text of the system, also by one with mistakes.",
+         .arguments = {{"text", text()}, merge},
+         .result = generation,
+         .changes_run = true,
+         .apply = replace_text},
+        {.name = "copy",
+         .doc = "Returns items and the connections among their groups, for the operation `paste`.",
+         .arguments = {{"ids", list(text())},
+                       optional("connections", boolean(), true, "false: only those that `ids` names")},
+         .result = "{ text: string }",
+         .apply = copy_items},
+        {.name = "types",
+         .doc = "Lists the types of neurons, synapses, modules, arborizations and functions of distance.",
+         .result = "TypesResult",
+         .apply = [](Session& s, const Request&) { return describe_types(s.run().registry()); }},
+        {.name = "vocabulary",
+         .doc = "Lists the elements and attributes of a system file.",
+         .result = "Vocabulary",
+         .apply = [](Session&, const Request&) { return describe_vocabulary(); }},
+        {.name = "preview",
+         .doc = "Returns which cells, from 0, a connection would join with another pattern or other "
+                "functions; at "
+                "most 200000 pairs of `synapses`. Changes nothing.",
+         .arguments = previewed,
+         .result = "PreviewResult",
+         .apply = preview_connection},
+    };
 }
 
 }  // namespace forage::studio

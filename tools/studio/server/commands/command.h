@@ -1,0 +1,69 @@
+// A command of a page as a value.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/studio/server/equivalents.h"
+#include "tools/studio/server/schema.h"
+#include "tools/studio/server/session.h"
+
+namespace forage::studio {
+
+/// The arguments of a command, which have been checked. A member with a default always has a value.
+class Request {
+  public:
+    Request(int page, json arguments) : client(page), arguments_(std::move(arguments)) {}
+
+    const int client;  ///< the page; -1 for none
+    bool has(const char* member) const { return arguments_.contains(member); }
+    const json& operator[](const char* member) const { return arguments_.at(member); }
+    std::string text(const char* member) const { return arguments_.at(member).get<std::string>(); }
+    std::vector<std::string> texts(const char* member) const {
+        return has(member) ? arguments_.at(member).get<std::vector<std::string>>()
+                           : std::vector<std::string>();
+    }
+    std::uint64_t whole(const char* member) const { return arguments_.at(member).get<std::uint64_t>(); }
+    double number(const char* member) const { return arguments_.at(member).get<double>(); }
+    bool flag(const char* member) const { return arguments_.at(member).get<bool>(); }
+    const json& all() const { return arguments_; }
+
+  private:
+    json arguments_;
+};
+
+struct Command {
+    std::string name;
+    std::string doc;  ///< one or two sentences, for the table of docs/design/studio-protocol.md
+    std::vector<Member> arguments = {};
+    std::string result = "Record<string, never>";  ///< as TypeScript, with the types of web/src/protocol
+    /// Whether it is rejected when another page acted since the `generation` that it names.
+    bool changes_run = false;
+    json (*apply)(Session& session, const Request& request) = nullptr;
+    /// Of an action that the history repeats: changes the run as the noted action says.
+    void (*repeat)(Session& session, const json& action) = nullptr;
+    /// How to do such an action without the studio, before it is applied.
+    Equivalent (*script)(Session& session, const json& action) = nullptr;
+};
+
+/// All commands, topic by topic.
+const std::vector<Command>& commands();
+/// Throws InputError for a name that no command has.
+const Command& find_command(const std::string& name);
+
+/// The commands of a topic, each in the file of its name.
+std::vector<Command> run_commands();
+std::vector<Command> looking_commands();
+std::vector<Command> parameter_commands();
+std::vector<Command> intervening_commands();
+std::vector<Command> sampling_commands();
+std::vector<Command> layout_commands();
+std::vector<Command> panel_commands();
+std::vector<Command> editing_commands();
+std::vector<Command> document_commands();
+std::vector<Command> world_commands();
+std::vector<Command> past_commands();
+
+}  // namespace forage::studio

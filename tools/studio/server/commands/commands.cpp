@@ -1,0 +1,67 @@
+#include "tools/studio/server/commands.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "tools/studio/server/commands/command.h"
+
+namespace forage::studio {
+namespace {
+
+using Topic = std::vector<Command> (*)();
+constexpr Topic topics[] = {run_commands,      looking_commands,  parameter_commands, intervening_commands,
+                            sampling_commands, panel_commands,    layout_commands,    past_commands,
+                            editing_commands,  document_commands, world_commands};
+
+/// Removes the generation that a command names. Throws Conflict when it is not the present one.
+void take_generation(const Session& session, const Command& command, json& arguments) {
+    const auto seen = arguments.find("generation");
+    if (!command.changes_run || seen == arguments.end()) return;
+    if (const auto found = mismatch(*seen, whole(), "generation"))
+        throw InputError(fmt::format("command '{}': '{}' {}", command.name, found->where, found->what),
+                         found->allowed);
+    if (seen->get<std::uint64_t>() != session.generation())
+        throw Conflict("the run has changed since: another page has touched it");
+    arguments.erase(seen);
+}
+
+}  // namespace
+
+const std::vector<Command>& commands() {
+    static const std::vector<Command> all = [] {
+        std::vector<Command> out;
+        for (const auto topic : topics)
+            for (auto& command : topic()) out.push_back(std::move(command));
+        return out;
+    }();
+    return all;
+}
+
+const Command& find_command(const std::string& name) {
+    const auto it = std::ranges::find(commands(), name, &Command::name);
+    if (it != commands().end()) return *it;
+    std::vector<std::string> names;
+    for (const auto& command : commands()) names.push_back(command.name);
+    throw InputError(fmt::format("there is no command '{}'", name), suggest(name, names));
+}
+
+json execute_command(Session& session, int client, json message) {
+    const auto name = message.find("command");
+    if (name == message.end() || !name->is_string())
+        throw InputError("'command' is missing in the message", R"(such as {"id": 1, "command": "run"})");
+    const auto& command = find_command(name->get<std::string>());
+    message.erase("command"), message.erase("id");
+    take_generation(session, command, message);
+    if (const auto found = mismatch(message, command.arguments))
+        throw InputError(fmt::format("command '{}': '{}' {}", command.name, found->where, found->what),
+                         found->allowed);
+    for (const auto& m : command.arguments) {
+        if (m.required() || m.type.kind == ValueType::Kind::any) continue;
+        if (message.value(m.name, json()).is_null()) message.erase(m.name);
+        if (!m.otherwise.is_null()) message.emplace(m.name, m.otherwise);
+    }
+    return command.apply(session, Request(client, std::move(message)));
+}
+
+}  // namespace forage::studio

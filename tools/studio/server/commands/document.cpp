@@ -1,0 +1,302 @@
+#include <algorithm>
+#include <ctime>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/base/output_files.h"
+#include "core/model/build.h"
+#include "core/xml/reader.h"
+#include "core/xml/writer.h"
+#include "tools/studio/server/backups.h"
+#include "tools/studio/server/commands/shared.h"
+#include "tools/studio/server/recent.h"
+#include "tools/studio/server/settings.h"
+
+namespace forage::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t max_text = 4u << 20;  ///< bytes of a text that a page edits
+
+/// What a page opens or writes: systems, worlds, and what is beside them.
+bool is_shown(const fs::path& file) {
+    constexpr std::string_view endings[] = {".iqr",  ".iqrProcess", ".world", ".sdf",  ".xml",
+                                            ".conf", ".hconf",      ".pconf", ".json", ".csv",
+                                            ".dat",  ".h5",         ".npy",   ".txt"};
+    return std::ranges::find(endings, file.extension().string()) != std::end(endings);
+}
+
+model::ProcessFile process_file(const std::string& path) {
+    Diagnostics diagnostics;
+    auto file = xml::read_process(path, diagnostics);
+    if (!file) throw InputError(std::move(diagnostics));
+    return *std::move(file);
+}
+
+/// The ids of a linked process are those of its file, so that they must be free.
+void refuse_taken_ids(const model::System& system, const model::ProcessFile& file, const std::string& path) {
+    const auto refuse_taken = [&](const std::string& id) {
+        const auto has_it = [&](const auto& item) { return item.id == id; };
+        const auto in_process = [&](const auto& p) {
+            return has_it(p) || std::ranges::any_of(p.groups, has_it);
+        };
+        if (std::ranges::any_of(system.processes, in_process) ||
+            std::ranges::any_of(system.connections, has_it))
+            throw InputError(fmt::format("'{}' has the id '{}', which the system has, too", path, id),
+                             "import the process instead: it gets ids of its own");
+    };
+    refuse_taken(file.process.id);
+    for (const auto& g : file.process.groups) refuse_taken(g.id);
+    for (const auto& connection : file.connections) refuse_taken(connection.id);
+}
+
+json read_document(Session& s, const Request&) {
+    s.look_outside();
+    const auto& text = s.document_->text();
+    if (text.size() > max_text)
+        throw InputError(fmt::format("the text has {} MB, too many for a page", text.size() >> 20),
+                         "open the file in an editor; the studio notices when it changes");
+    json out = s.document_message();
+    out["text"] = text, out["generation"] = s.generation_;
+    return out;
+}
+
+json open_new_system(Session& s, const Request& r) {
+    RunInput input = s.input_;
+    input.more.clear(), input.settings.clear(), input.robots.clear(), input.replay.clear();
+    const Document made = Document::create(r.text("name"));
+    input.text = made.text();
+    input.system = "untitled.iqr";
+    input.world = r.text("world"), input.world_text.clear();
+    s.open_document(input);
+    s.document_ = made;
+    s.scripted_.begin(made);
+    s.tell_document();
+    return json::object();
+}
+
+json save_document(Session& s, const Request& r) {
+    auto& document = *s.document_;
+    const auto file = r.text("file");
+    if (!file.empty() && fs::path(file).extension() != ".iqr")
+        throw InputError(fmt::format("'{}' is not a name of a system", file), "it ends with .iqr");
+    const std::string before = document.path(), to = file.empty() ? before : file;
+    refuse_shipped(s, to);
+    if (backup_of(to))
+        throw InputError(fmt::format("'{}' is a backup and stays as it is", to),
+                         "save it under the name of the system, or under another one");
+    ScriptedSystem scripted = s.scripted_;
+    const auto forms = scripted.save(s.edited_file(before), document, to, s.run().registry());
+    document.save(file, s.run().registry(), r.flag("overwrite"));
+    scripted.note_saved(document);
+    s.scripted_ = std::move(scripted);
+    // The file now has a text that does not run.
+    if (!s.current_ && s.input_.text.empty()) s.input_.text = s.begun_.text;
+    s.input_.system = document.path();
+    if (s.wanted_) s.wanted_->system = document.path();
+    s.outside_ = false;
+    if (s.current_) s.built_ = document.system();
+    note_recent(document.path());
+    if (s.kept_ && document.path() != before) s.keep_anew(), s.saved_version_.reset();
+    s.tell_action("save", (to == before ? "save " : "save as ") + fs::path(to).filename().string(), forms);
+    s.tell(s.system_message()), s.tell_document();
+    return {{"file", document.path()}};
+}
+
+json write_backup(Session& s, const Request&) {
+    auto path = s.document_->path();
+    if (const auto backup = backup_of(path)) path = backup->system;
+    if (path.empty()) throw InputError("the system has no file yet", "save it first");
+    refuse_shipped(s, path);
+    const std::time_t now = std::time(nullptr);
+    std::tm local{};
+    localtime_r(&now, &local);
+    const auto file = backup_path(path, local);
+    if (fs::exists(file)) throw InputError(fmt::format("'{}' exists", file), "wait for a second");
+    write_file(file, s.document_->text());
+    return {{"file", file}};
+}
+
+json reload_document(Session& s, const Request& r) {
+    const auto keep = r.text("keep");
+    const bool step = s.document_->reload(keep == "mine"     ? Document::Keep::mine
+                                          : keep == "theirs" ? Document::Keep::theirs
+                                                             : Document::Keep::merge);
+    s.outside_ = false;
+    if (step) return follow_edit(s, keep == "theirs" ? "the text of the file" : "merge with the file");
+    s.tell_document();
+    return {{"generation", s.generation_}};
+}
+
+/// Adds an empty process whose content is in a file.
+std::string add_link(model::System& system, const model::ProcessFile& file, const std::string& path,
+                     const std::string& own) {
+    auto made = model::add_process(system, file.process.name);
+    model::find_process(system, made)->path =
+        own.empty()  // before the first save
+            ? fs::absolute(path).string()
+            : fs::relative(fs::absolute(path), fs::absolute(own).parent_path()).generic_string();
+    return made;
+}
+
+json import_process_file(Session& s, const Request& r) {
+    auto& document = *s.document_;
+    const auto path = r.text("file");
+    const bool link = r.flag("link");
+    auto file = process_file(path);
+    const std::string title = "import " + fs::path(path).filename().string();
+    if (link) refuse_taken_ids(document.system(), file, path);
+    std::string made;
+    const std::string before = document.text();
+    document.edit(
+        [&](model::System& system) {
+            made = link ? add_link(system, file, path, document.path())
+                        : model::import_process(system, std::move(file));
+        },
+        title);
+    for (const auto& p : document.system().processes)  // it has the id of its file
+        if (p.linked() && p.placeholder.front().id == made) {
+            made = p.id;
+            break;
+        }
+    const json operation = {{"do", "import"}, {"file", path}};
+    json out = follow_edit(s, title, before, link ? json::array() : json::array({operation}));
+    out["id"] = made;
+    return out;
+}
+
+json export_process_file(Session& s, const Request& r) {
+    const auto path = r.text("file");
+    if (fs::path(path).extension() != ".iqrProcess")
+        throw InputError(fmt::format("'{}' is not a name of a process", path), "it ends with .iqrProcess");
+    if (!s.document_->readable())
+        throw InputError("the text of the system has mistakes that hide its meaning", "correct them first");
+    check_free(s, path, r.flag("overwrite"));
+    write_file(path, xml::write_process(model::extract_process(s.document_->system(), r.text("process"))));
+    return {{"file", path}};
+}
+
+json change_settings(Session& s, const Request& r) {
+    if (r.has("save_interval")) {
+        Settings next = s.settings_;
+        next.save_interval = r.number("save_interval");
+        write_settings(next);
+        s.settings_ = next;
+    }
+    return {{"save_interval", s.settings_.save_interval}};
+}
+
+json list_files(Session& s, const Request& r) {
+    const fs::path here = r.text("folder").empty() ? system_folder(s) : fs::path(r.text("folder"));
+    std::error_code failed;
+    const fs::path where = fs::canonical(here, failed);
+    if (failed || !fs::is_directory(where))
+        throw InputError(fmt::format("'{}' is not a folder", here.string()));
+    std::vector<std::string> folders, files, backups;
+    for (const auto& entry : fs::directory_iterator(where, fs::directory_options::skip_permission_denied)) {
+        const std::string name = entry.path().filename().string();
+        std::error_code ignored;
+        if (name.starts_with(".")) continue;
+        if (entry.is_directory(ignored))
+            folders.push_back(name);
+        else if (is_shown(entry.path()))
+            files.push_back(name);
+        else if (backup_of(name))
+            backups.push_back(name);
+    }
+    std::ranges::sort(folders), std::ranges::sort(files);
+    std::ranges::sort(backups, std::greater());  // of each system, the latest first
+    json dated = json::array();
+    for (const auto& name : backups) {
+        const auto backup = backup_of(name);
+        dated.push_back({{"file", name}, {"system", backup->system}, {"time", backup->time}});
+    }
+    return {{"folder", where.string()},
+            {"parent", where.parent_path().string()},
+            {"folders", folders},
+            {"files", files},
+            {"backups", std::move(dated)}};
+}
+
+}  // namespace
+
+void refuse_shipped(const Session& s, const std::string& path) {
+    if (s.comes_with_forage(path))
+        throw InputError(fmt::format("'{}' comes with Forage and stays as it is", path),
+                         "save it in a folder of your own");
+}
+
+std::vector<Command> document_commands() {
+    const auto overwrite = optional("overwrite", boolean(), false);
+    const std::string file = "{ file: string }";
+    return {
+        {.name = "document",
+         .doc = "Returns the message `document`, the text of the system, at most 4 MB, and the generation.",
+         .result = "DocumentMessage & { text: string; generation: number }",
+         .apply = read_document},
+        {.name = "difference",
+         .doc = "Returns the changes since the last save, as `diff -u` prints them.",
+         .result = "{ text: string }",
+         .apply = [](Session& s, const Request&) -> json {
+             return {{"text", s.document_->difference()}};
+         }},
+        {.name = "new",
+         .doc = "Opens a system without content and without a file.",
+         .arguments = {{"name", text()}, optional("world", text(), "")},
+         .changes_run = true,
+         .apply = open_new_system},
+        {.name = "backup",
+         .doc =
+             "Writes the text as it is now into a file beside the system whose name ends with date and time: "
+             "`dac.iqr,2026-11-26_05-14-17`. A backup that is open gives another one of the same system.",
+         .result = file,
+         .apply = write_backup},
+        {.name = "save",
+         .doc = "Saves the system. Rejected when the file was changed by another program, exists under a new "
+                "name, or is a backup.",
+         .arguments = {optional("file", text(), "", "by default the same"), overwrite},
+         .result = file,
+         .apply = save_document},
+        {.name = "reload",
+         .doc =
+             "Follows a file that another program changed. `merge` makes the changes of this document in the "
+             "text of the file, unless both have changed the same thing.",
+         .arguments = {{"keep", choice({"mine", "theirs", "merge"})}},
+         .result = "{ generation: number }",
+         .changes_run = true,
+         .apply = reload_document},
+        {.name = "import",
+         .doc = "Adds the process of a file, or a link to the file.",
+         .arguments = {{"file", text(), "`.iqrProcess`"}, optional("link", boolean(), false)},
+         .result = "{ id: string; generation: number }",
+         .changes_run = true,
+         .apply = import_process_file},
+        {.name = "export",
+         .doc = "Writes a process into a file.",
+         .arguments = {{"process", text(), "an id"}, {"file", text(), "`.iqrProcess`"}, overwrite},
+         .result = file,
+         .apply = export_process_file},
+        {.name = "recent",
+         .doc = "Lists the last files, at most twenty, from `$XDG_STATE_HOME/forage/recent`.",
+         .result = "{ files: string[] }",
+         .apply = [](Session&, const Request&) -> json {
+             return {{"files", recent_files()}};
+         }},
+        {.name = "settings",
+         .doc = "Changes and returns the settings in `$XDG_STATE_HOME/forage/settings.json`, for the studios "
+                "that "
+                "start from now on.",
+         .arguments = {optional("save_interval", number(5, 60), nullptr, "in s")},
+         .result = "{ save_interval: number }",
+         .apply = change_settings},
+        {.name = "files",
+         .doc = "Lists systems, worlds and what is beside them, and backups, the latest of a system first.",
+         .arguments = {optional("folder", text(), "", "by default that of the system")},
+         .result = "FilesResult",
+         .apply = list_files},
+    };
+}
+
+}  // namespace forage::studio

@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include "core/base/output_files.h"
+#include "core/base/text_file.h"
+#include "tools/studio/server/commands/shared.h"
+#include "tools/studio/server/plot_layout.h"
+
+namespace forage::studio {
+namespace {
+
+constexpr std::string_view layout_ending = ".layout.json";
+
+bool is_plot_config(const std::string& name) { return name.ends_with(".conf") && name == file_name(name); }
+
+std::string layout_path(const Session& s, const std::string& name) {
+    if (name.empty() || name != file_name(name) || name.starts_with("."))
+        throw InputError(fmt::format("'{}' is not a name of a layout", name),
+                         "letters, digits, '.', '-' and '_'");
+    return (system_folder(s) / (name + std::string(layout_ending))).string();
+}
+
+json list_layouts(Session& s, const Request&) {
+    std::vector<std::string> out;
+    for (const auto& entry : std::filesystem::directory_iterator(system_folder(s))) {
+        const std::string name = entry.path().filename().string();
+        if (name.ends_with(layout_ending))
+            out.push_back(name.substr(0, name.size() - layout_ending.size()));
+        else if (is_plot_config(name))
+            out.push_back(name);
+    }
+    std::ranges::sort(out);
+    return {{"layouts", out}};
+}
+
+json read_saved_layout(Session& s, const Request& r) {
+    const auto name = r.text("name");
+    if (is_plot_config(name)) {
+        const auto path = (system_folder(s) / name).string();
+        return {{"content", plot_layout(s.run(), path, read_file(path))}};
+    }
+    const auto path = layout_path(s, name);
+    const json content = json::parse(read_file(path), nullptr, false);
+    if (content.is_discarded()) throw InputError(fmt::format("'{}' is not a layout", path));
+    return {{"content", content}};
+}
+
+json write_layout(Session& s, const Request& r) {
+    const auto path = layout_path(s, r.text("name"));
+    check_new(path, r.flag("overwrite"));
+    write_file(path, r["content"].dump(1) + "\n");
+    return {{"file", path}};
+}
+
+json keep_panels(Session& s, const Request& r) {
+    s.panels_ = r["content"];
+    s.saved_version_.reset();
+    return json::object();
+}
+
+}  // namespace
+
+std::filesystem::path system_folder(const Session& s) {
+    const auto parent = std::filesystem::path(s.input_.system).parent_path();
+    return parent.empty() ? "." : parent;
+}
+
+void check_new(const std::string& path, bool overwrite) {
+    if (!overwrite && std::filesystem::exists(path))
+        throw FileExists(fmt::format("'{}' exists", path), "overwrite it, or choose another name");
+}
+
+void check_free(const Session& s, const std::string& path, bool overwrite) {
+    refuse_shipped(s, path);
+    check_new(path, overwrite);
+}
+
+std::vector<Command> layout_commands() {
+    const Member content{"content", record({}), "any object"};
+    const std::string found = "{ content: LayoutContent }";
+    return {
+        {.name = "layouts",
+         .doc = "Lists the layouts beside the system: `NAME.layout.json`, and `NAME.conf` of the original.",
+         .result = "{ layouts: string[] }",
+         .apply = list_layouts},
+        {.name = "layout_read",
+         .doc = "Reads a layout beside the system.",
+         .arguments = {{"name", text(), "of a `.conf` with its ending"}},
+         .result = found,
+         .apply = read_saved_layout},
+        {.name = "layout_convert",
+         .doc = "Converts the text of a `.conf` of the original.",
+         .arguments = {{"text", text()}, optional("file", text(), "plots.conf", "a name for messages")},
+         .result = found,
+         .apply = [](Session& s, const Request& r) -> json {
+             return {{"content", plot_layout(s.run(), r.text("file"), r.text("text"))}};
+         }},
+        {.name = "layout_write",
+         .doc = "Writes a layout beside the system.",
+         .arguments = {{"name", text()}, content, optional("overwrite", boolean(), false)},
+         .result = "{ file: string }",
+         .apply = write_layout},
+        {.name = "panels_keep",
+         .doc = "Keeps the arrangement of the panels, which outlives the page and a crash of the program.",
+         .arguments = {content},
+         .apply = keep_panels},
+    };
+}
+
+}  // namespace forage::studio

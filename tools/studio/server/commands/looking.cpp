@@ -1,0 +1,139 @@
+#include <cmath>
+
+#include <fmt/format.h>
+#include <forage/system.h>
+
+#include "bug_interface/simulation/world.h"
+#include "core/model/lookup.h"
+#include "tools/api/moves.h"
+#include "tools/studio/server/commands/shared.h"
+
+namespace forage::studio {
+namespace {
+
+constexpr std::size_t max_synapses = 200'000;  ///< in a reply
+
+Client& page_of(Session& s, const Request& r) {
+    const auto it = s.clients_.find(r.client);
+    if (it == s.clients_.end()) throw InputError("only a page can subscribe");
+    return it->second;
+}
+
+/// The run to compare with; null without one.
+Run* reference_of(Session& s) { return s.reference_ ? s.reference_->run.get() : nullptr; }
+
+json subscribe(Session& s, const Request& r) {
+    auto& page = page_of(s, r);
+    const auto delivery = r.text("class") == "append" ? Delivery::append : Delivery::latest;
+    const auto number = page.subscribe(
+        s.sources_.stream(s.run(), reference_of(s), r.text("source"), delivery, r.whole("every")));
+    const auto& stream = page.stream(number);
+    return {{"stream", number},
+            {"rows", stream.source().rows()},
+            {"columns", stream.source().columns()},
+            {"label", stream.source().label()},
+            {"every", stream.every()}};
+}
+
+json unsubscribe(Session& s, const Request& r) {
+    const auto number = static_cast<std::uint32_t>(r.whole("stream"));
+    if (!page_of(s, r).unsubscribe(number)) throw InputError(fmt::format("there is no stream {}", number));
+    return json::object();
+}
+
+json acknowledge(Session& s, const Request& r) {
+    if (const auto it = s.clients_.find(r.client); it != s.clients_.end())
+        it->second.acknowledge(static_cast<std::uint32_t>(r.whole("seq")));
+    return json::object();
+}
+
+json read_source(Session& s, const Request& r) {
+    const auto shared = s.sources_.find(s.run(), reference_of(s), r.text("source"), Delivery::latest);
+    const auto values = shared->numbers(s.version_);
+    return {{"rows", shared->source().rows()}, {"columns", shared->source().columns()}, {"values", values}};
+}
+
+json list_synapses(Session& s, const Request& r) {
+    Diagnostics diagnostics;
+    const auto item = model::find_item(s.run().system(), r.text("connection"), "synapses", diagnostics);
+    throw_errors(diagnostics);
+    const std::shared_ptr<const Registry> types(std::shared_ptr<const Registry>(), &s.run().registry());
+    const SystemFile file{s.run().system(), s.input_.system, {}, types};
+    const SynapseTable all = forage::synapses(file, item->id, s.run().seed());
+    json out = {{"source", json::array()}, {"target", json::array()},   {"distance", json::array()},
+                {"delay", json::array()},  {"strength", json::array()}, {"total", all.source.size()}};
+    const auto is_other = [&](const char* side, int cell) {
+        return r.has(side) && r.whole(side) != static_cast<std::uint64_t>(cell);
+    };
+    for (std::size_t i = 0; i < all.source.size() && out["source"].size() < max_synapses; ++i) {
+        if (is_other("source", all.source[i]) || is_other("target", all.target[i])) continue;
+        out["source"].push_back(all.source[i]), out["target"].push_back(all.target[i]);
+        out["distance"].push_back(all.distance[i]), out["delay"].push_back(all.delay[i]);
+        out["strength"].push_back(all.strength[i]);
+    }
+    return out;
+}
+
+json list_trials(Session& s, const Request& r) {
+    json out = json::array();
+    for (const Trial& t : world_of(s.run()).trials(find_robot(s, r))) {
+        json row = {{"number", t.number},
+                    {"seconds", static_cast<double>(t.cycles) * s.run().seconds_per_cycle()},
+                    {"first_cycle", t.first_cycle},
+                    {"cycles", t.cycles},
+                    {"reached_target", t.reached_target},
+                    {"start", {t.start.x, t.start.y, t.start.yaw}},
+                    {"end", {t.end.x, t.end.y, t.end.yaw}},
+                    {"smallest_distance", nullptr}};
+        if (std::isfinite(t.smallest_distance)) row["smallest_distance"] = t.smallest_distance;
+        out.push_back(std::move(row));
+    }
+    return {{"trials", std::move(out)}};
+}
+
+}  // namespace
+
+std::size_t find_robot(Session& s, const Request& r) { return forage::find_robot(s.run(), r.text("robot")); }
+
+std::vector<Command> looking_commands() {
+    const auto cell = whole(0, 2'147'483'647);
+    const auto source = text();
+    return {
+        {.name = "subscribe",
+         .doc = "Begins a stream.",
+         .arguments = {{"source", source, "see [streams](#streams)"},
+                       optional("class", choice({"latest", "append"}), "latest"),
+                       optional("every", whole(1, 1'000'000'000), 1, "cycles that an `append` row joins")},
+         .result = "{ stream: number; rows: number; columns: number; label: string; every: number }",
+         .apply = subscribe},
+        {.name = "unsubscribe",
+         .doc = "Ends a stream.",
+         .arguments = {{"stream", whole(0, 4'294'967'295)}},
+         .apply = unsubscribe},
+        {.name = "ack",
+         .doc = "Acknowledges all frames up to a number. Has no reply.",
+         .arguments = {{"seq", whole(0, 4'294'967'295)}},
+         .apply = acknowledge},
+        {.name = "read",
+         .doc = "Reads a source in the last cycle.",
+         .arguments = {{"source", source}},
+         .result = "{ rows: number; columns: number; values: number[] }",
+         .apply = read_source},
+        {.name = "synapses",
+         .doc = "Lists the synapses of a connection, at most 200000 of `total`.",
+         .arguments = {{"connection", text()},
+                       optional("source", cell, nullptr, "the number of a cell, from 0"),
+                       optional("target", cell)},
+         .result =
+             "{ total: number; source: number[]; target: number[]; distance: number[]; delay: number[]; "
+             "strength: number[] }",
+         .apply = list_synapses},
+        {.name = "trials",
+         .doc = "Lists the finished trials; lengths in m, angles in rad.",
+         .arguments = {optional("robot", text(), "", "by default the first")},
+         .result = "{ trials: Trial[] }",
+         .apply = list_trials},
+    };
+}
+
+}  // namespace forage::studio

@@ -1,0 +1,185 @@
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "tools/studio/server/commands/shared.h"
+
+namespace forage::studio {
+namespace {
+
+void check_running(const Session& s) {
+    if (!s.failed_.empty()) throw InputError("the run has failed: " + s.failed_, "stop it, or go back");
+}
+
+json start_run(Session& s, const Request&) {
+    check_running(s);
+    begin_waiting_sampler(s);
+    s.running_ = s.status_due_ = true;
+    s.pace_from_ = s.rate_from_ = -1, s.measured_rate_ = 0;
+    return json::object();
+}
+
+json pause_run(Session& s, const Request&) {
+    s.running_ = false, s.status_due_ = true;
+    return json::object();
+}
+
+json step_run(Session& s, const Request& r) {
+    pause_run(s, r);
+    check_running(s);
+    begin_waiting_sampler(s);
+    try {
+        for (std::uint64_t i = 0; i < r.whole("cycles"); ++i) s.cycle();
+    } catch (const engine::RunError& e) {
+        s.failed_ = e.what();
+        throw;
+    }
+    return {{"cycle", s.run().cycle()}};
+}
+
+/// Begins the run again with another input; with the one before when that fails.
+void reset_with(Session& s, RunInput input) {
+    const auto before = std::exchange(s.input_, std::move(input));
+    try {
+        s.reset();
+    } catch (...) {
+        s.input_ = before;
+        throw;
+    }
+}
+
+json restart_run(Session& s, const Request& r) {
+    RunInput input = s.input_;
+    if (r.has("seed")) input.seed = r.whole("seed");
+    const auto ended = s.lost_by_rebuild();
+    reset_with(s, input);
+    s.tell_action("restart", fmt::format("begin anew with seed {}", input.seed),
+                  begun_again(s, of_restart, input.world), ended);
+    return {{"seed", input.seed}};
+}
+
+json set_speed(Session& s, const Request& r) {
+    const auto mode = r.text("mode");
+    const bool has_value = mode == "times" || mode == "cycles";
+    if (has_value && !(r.number("value") > 0)) throw InputError("a speed of 0 is a pause", "more than 0");
+    s.set_speed(mode, has_value ? r.number("value") : 1);
+    return json::object();
+}
+
+json open_system(Session& s, const Request& r) {
+    RunInput input = s.input_;
+    input.more.clear(), input.settings.clear(), input.text.clear(), input.world_text.clear();
+    const std::filesystem::path folder = r.flag("shipped") ? s.shipped_ : "";
+    const auto world = r.text("world");
+    input.system = folder / r.text("system");
+    input.world = world.empty() ? world : (folder / world).string();
+    s.open_document(input);
+    return json::object();
+}
+
+/// Drops the steps on the text of another world.
+void forget_world_steps(Session& s) {
+    for (auto* steps : {&s.undo_, &s.redo_})
+        std::erase_if(*steps, [](const auto& step) {
+            const auto command = step.redo.is_object() ? step.redo.value("command", "") : "";
+            return command == "world_text" || command == "move";
+        });
+}
+
+json open_world(Session& s, const Request& r) {
+    RunInput input = s.input_;
+    input.world = r.text("world"), input.world_text.clear();
+    const auto ended = s.lost_by_rebuild();
+    reset_with(s, input);
+    s.world_text_.reset();
+    forget_world_steps(s);
+    ++s.generation_;
+    const auto name = std::filesystem::path(input.world).filename().string();
+    s.tell_action("world_open", name.empty() ? "begin anew without a world" : "begin anew in " + name,
+                  begun_again(s, of_world, input.world), ended);
+    s.tell(s.world_message()), s.tell(s.system_message()), s.tell_document();
+    return {{"world", input.world}};
+}
+
+json list_shipped(Session& s, const Request&) {
+    namespace fs = std::filesystem;
+    std::vector<std::string> worlds;
+    std::error_code failed;
+    if (!s.shipped_.empty())
+        for (const auto& entry : fs::directory_iterator(fs::path(s.shipped_) / "worlds", failed))
+            if (entry.path().extension() == ".world") worlds.push_back(entry.path().string());
+    std::ranges::sort(worlds);
+    return {{"worlds", worlds}};
+}
+
+json quit_program(Session& s, const Request&) {
+    if (!s.quit) throw InputError("this session cannot be ended by a page");
+    s.quit();
+    return json::object();
+}
+
+}  // namespace
+
+Equivalent begun_again(Session& s, Equivalent (*form)(const Opened&), const std::string& world) {
+    // What the file does not have yet, such as parameters that were set in the run, gets into it before.
+    const auto edit = s.scripted_.edit(s.edited_file(s.document_->path()), {}, json::array(), *s.document_,
+                                       s.run().registry());
+    const bool edited = s.document_->dirty();
+    Equivalent out = form({s.input_.system, world, s.input_.seed, edited});
+    if (!s.current_ || (edited && !s.scripted_.follows())) out.python.clear();
+    const auto joined = [](const std::string& a, const std::string& b) {
+        return a.empty() || b.empty() ? a + b : a + '\n' + b;
+    };
+    return {joined(edit.shell, out.shell), joined(edit.python, out.python)};
+}
+
+std::vector<Command> run_commands() {
+    return {
+        {.name = "run", .doc = "Starts the run.", .apply = start_run},
+        {.name = "pause", .doc = "Pauses the run.", .apply = pause_run},
+        {.name = "step",
+         .doc = "Pauses, then computes cycles.",
+         .arguments = {optional("cycles", whole(1, 1'000'000), 1)},
+         .result = "{ cycle: number }",
+         .apply = step_run},
+        {.name = "stop",
+         .doc = "Goes back to cycle 0 with the weights of the beginning. Parameters keep their values.",
+         .apply = [](Session& s, const Request&) { return s.reset(), json::object(); }},
+        {.name = "restart",
+         .doc = "Goes back to cycle 0 with another seed.",
+         .arguments = {optional("seed", whole(), nullptr, "by default the present one")},
+         .result = "{ seed: number }",
+         .changes_run = true,
+         .apply = restart_run},
+        {.name = "speed",
+         .doc =
+             "Sets the pace: as the world, seconds of the world per second (`times`), cycles per second, or "
+             "as fast as possible.",
+         .arguments = {{"mode", choice({"real", "times", "cycles", "free"})},
+                       optional("value", number(0, 1e9), 1, "of `times` and `cycles`")},
+         .apply = set_speed},
+        {.name = "open",
+         .doc = "Opens another system.",
+         .arguments = {{"system", text(), "a path"},
+                       optional("world", text(), ""),
+                       optional("shipped", boolean(), false,
+                                "whether the paths are in the folder of the systems that come with Forage")},
+         .changes_run = true,
+         .apply = open_system},
+        {.name = "world_open",
+         .doc = "Begins the open system, with its edits, in another world.",
+         .arguments = {{"world", text(), "a path; empty for none"}},
+         .result = "{ world: string }",
+         .changes_run = true,
+         .apply = open_world},
+        {.name = "shipped",
+         .doc = "Lists the worlds that come with Forage.",
+         .result = "{ worlds: string[] }",
+         .apply = list_shipped},
+        {.name = "quit", .doc = "Ends the program.", .apply = quit_program},
+    };
+}
+
+}  // namespace forage::studio

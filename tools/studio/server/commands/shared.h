@@ -1,0 +1,55 @@
+// Steps that commands of several topics share.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tools/studio/server/commands/command.h"
+
+namespace forage::studio {
+
+// ---- files ----
+/// The folder of the system.
+std::filesystem::path system_folder(const Session& session);
+/// Throws InputError for a file that comes with Forage.
+void refuse_shipped(const Session& session, const std::string& path);
+/// Throws FileExists unless the file may be overwritten.
+void check_new(const std::string& path, bool overwrite);
+/// Throws InputError when a command may not write the file.
+void check_free(const Session& session, const std::string& path, bool overwrite);
+
+// ---- the run ----
+std::size_t find_robot(Session& session, const Request& request);
+/// The scripts of a run of the document that begins again in a world.
+Equivalent begun_again(Session& session, Equivalent (*form)(const Opened&), const std::string& world);
+/// Begins a recording that was asked to begin with the run.
+void begin_waiting_sampler(Session& session);
+
+// ---- parameters ----
+/// Checks assignments and returns those that undo them. Throws InputError for all mistakes at once.
+std::vector<std::string> inverse(Session& session, const std::vector<std::string>& assignments);
+json set_parameters(Session& session, const std::vector<std::string>& assignments, const std::string& title);
+json describe_item_parameters(Session& session, const std::string& item);
+
+/// What pages get of an action: its title and its scripts.
+json described_action(Session& session, const json& action, const std::string& title,
+                      const std::string& item = {});
+
+// ---- the document ----
+/// Follows a step of the document.
+json follow_edit(Session& session, const std::string& title, const std::string& text_before = {},
+                 const json& operations = json::array());
+
+// ---- the text of the world ----
+Session::WorldText& world_text(Session& session);
+json describe_world_text(Session& session);
+void set_world_text(Session& session, const std::string& text);
+/// Builds the run again in a world of this text: robots and what they carry stay where they are. Throws
+/// InputError, and leaves the run as it is then.
+void run_in_world(Session& session, const std::string& text);
+/// Broadcasts an edit of the world, with which the run goes on in another world or not.
+void broadcast_world_edit(Session& session, const std::string& title, const Equivalent& forms, bool runs,
+                          const std::vector<std::string>& ended);
+
+}  // namespace forage::studio

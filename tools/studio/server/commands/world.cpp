@@ -1,0 +1,235 @@
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "bug_interface/world/sdf_edit.h"
+#include "core/base/number.h"
+#include "core/base/output_files.h"
+#include "core/base/text_file.h"
+#include "tools/api/world_operations.h"
+#include "tools/studio/server/commands/shared.h"
+
+namespace forage::studio {
+namespace {
+
+json json_of(const bug::ItemProperty& p) {
+    const auto limit = [](const std::optional<double>& v) { return v ? json(*v) : json(nullptr); };
+    json value = p.value;
+    if (p.kind == "number" || p.kind == "integer") value = parse_number<double>(p.value).value_or(0);
+    if (p.kind == "boolean") value = p.value == "1";
+    return {
+        {"name", p.name},      {"label", p.label},      {"kind", p.kind},      {"value", std::move(value)},
+        {"low", limit(p.low)}, {"high", limit(p.high)}, {"choices", p.choices}};
+}
+
+json json_of(const bug::WorldItem& i) {
+    json parts = json::array(), properties = json::array();
+    for (const auto& p : i.parts)
+        parts.push_back({{"x", p.x}, {"y", p.y}, {"yaw", p.yaw}, {"size", p.size}, {"color", p.color}});
+    for (const auto& p : i.properties) properties.push_back(json_of(p));
+    return {{"id", i.id},
+            {"name", i.name},
+            {"kind", i.kind},
+            {"placed", i.placed},
+            {"unpacks", i.unpacks},
+            {"x", i.x},
+            {"y", i.y},
+            {"z", i.z},
+            {"yaw", i.yaw},
+            {"parts", std::move(parts)},
+            {"properties", std::move(properties)}};
+}
+
+/// The ids that an operation has made: one, several or none.
+json flat(json made) {
+    if (made.is_null()) return json::array();
+    return made.is_array() ? made : json::array({std::move(made)});
+}
+
+/// The text of the world that runs.
+std::string running_world(Session& s) {
+    return s.input_.world_text.empty() ? world_text(s).saved : s.input_.world_text;
+}
+
+json edit_world(Session& s, const Request& r) {
+    const auto& operations = r["operations"];
+    if (operations.empty()) throw InputError("there is no operation");
+    const std::string before = world_text(s).text;
+    std::string text = before;
+    bug::ModelTexts models(world_text(s).path);
+    json ids = json::array();
+    for (const auto& o : operations)
+        for (auto& id : flat(editing::carry_out_in_world(o, text, models))) ids.push_back(std::move(id));
+    editing::check_world(world_text(s).path, text);
+    const auto title = r.has("title")
+                           ? r.text("title")
+                           : fmt::format("{} in the world", operations.front().value("do", "edit"));
+    const auto merge = r.text("merge");
+    const bool runs = r.flag("run");
+    const auto ended = s.lost_by_rebuild();
+    json redo = {{"command", "world_text"}, {"text", text}, {"merge", merge}};
+    json undo = {{"command", "world_text"}, {"text", before}};
+    if (runs) {
+        // What else was edited on the map gets into the run when the world is saved.
+        std::string running = running_world(s);
+        undo["run"] = running;
+        for (const auto& o : operations) {
+            if (o.at("do") != "move")
+                throw InputError("only what is moved gets into the run at once", "save the world");
+            editing::carry_out_in_world(o, running, models);
+        }
+        run_in_world(s, running);
+        redo["run"] = running;
+    }
+    const bool joins = !merge.empty() && !s.undo_.empty() && s.undo_.back().redo.is_object() &&
+                       s.undo_.back().redo.value("command", "") == "world_text" &&
+                       s.undo_.back().redo.value("merge", "") == merge;
+    if (joins)
+        s.undo_.back().redo = redo, s.undo_.back().title = title;
+    else
+        s.add_undo({undo, redo, title, false});
+    s.redo_.clear();
+    set_world_text(s, text);
+    broadcast_world_edit(s, title, of_world_edit(s.edited_file(world_text(s).path), operations), runs, ended);
+    return {{"ids", std::move(ids)}, {"generation", s.generation_}};
+}
+
+json save_world(Session& s, const Request& r) {
+    auto& world = world_text(s);
+    const auto file = r.has("file") ? r.text("file") : world.path;
+    if (std::filesystem::path(file).extension() != ".world")
+        throw InputError(fmt::format("'{}' is not a name of a world", file), "it ends with .world");
+    refuse_shipped(s, file);
+    if (file != world.path)
+        check_new(file, r.flag("overwrite"));
+    else if (!r.flag("overwrite") && read_file(file) != world.saved)
+        throw FileExists(fmt::format("'{}' was changed outside since it was read", file), "overwrite it");
+    RunInput wanted = s.begun_;  // with the text that the system had: its file may have changed
+    wanted.world = file, wanted.world_text = world.text;
+    s.make_run(wanted);  // a world in which the system cannot run is not written
+    auto forms = begun_again(s, of_world, file);
+    if (file != world.path) {
+        const auto copy = of_world_copy(s.edited_file(world.path), file);
+        forms = {copy.shell + '\n' + forms.shell, copy.python + '\n' + forms.python};
+    }
+    write_file(file, world.text);
+    world.saved = world.text, world.path = file;
+    const auto before = s.input_;
+    const auto ended = s.lost_by_rebuild();
+    s.input_.world = file, s.input_.world_text.clear();
+    try {
+        s.reset();  // the run begins anew in the world as it is now
+    } catch (...) {
+        s.input_ = before;
+        throw;
+    }
+    const auto name = std::filesystem::path(file).filename().string();
+    s.tell_action("world_save", "save " + name + " and begin anew in it", forms, ended);
+    s.tell(s.world_message()), s.tell(describe_world_text(s));
+    return {{"file", file}};
+}
+
+json list_kinds(Session&, const Request&) {
+    json kinds = json::array();
+    for (const auto& [kind, title] : bug::kinds_of_items())
+        kinds.push_back({{"kind", kind}, {"title", title}});
+    return {{"kinds", std::move(kinds)}};
+}
+
+}  // namespace
+
+Session::WorldText& world_text(Session& s) {
+    if (!s.world_text_) {
+        if (s.input_.world.empty()) throw InputError("the system has no world", "open it with a world");
+        s.world_text_ = {s.input_.world, read_file(s.input_.world), {}};
+        s.world_text_->saved = s.world_text_->text;
+    }
+    return *s.world_text_;
+}
+
+json describe_world_text(Session& s) {
+    const auto& world = world_text(s);
+    json items = json::array();
+    bug::ModelTexts models(world.path);
+    for (const auto& i : bug::items_of_world(world.text, models)) items.push_back(json_of(i));
+    return {{"type", "world_document"},
+            {"file", world.path},
+            {"dirty", world.text != world.saved},
+            {"items", std::move(items)}};
+}
+
+void set_world_text(Session& s, const std::string& text) {
+    world_text(s).text = text;
+    ++s.generation_;
+    s.saved_version_.reset();  // it is kept for the case of a crash, also while nothing runs
+    s.tell(describe_world_text(s));
+    s.tell_document();  // what can be undone
+}
+
+void run_in_world(Session& s, const std::string& text) {
+    if (!s.current_)
+        throw InputError("the system has problems", "correct them first; the run keeps its world");
+    const auto before = std::exchange(s.input_.world_text, text);
+    const auto problems = s.problems_;
+    if (s.rebuild(true)) return;
+    const auto found = std::exchange(s.problems_, problems);
+    s.input_.world_text = before;
+    for (const auto& p : found)
+        if (p.diagnostic.severity == Severity::error)
+            throw InputError(p.diagnostic.message, "the run keeps its world");
+    throw InputError("the system cannot run in this world", "the run keeps its world");
+}
+
+void broadcast_world_edit(Session& s, const std::string& title, const Equivalent& forms, bool runs,
+                          const std::vector<std::string>& ended) {
+    if (runs) ++s.version_;
+    s.status_due_ = true;
+    s.tell({{"type", "action"},
+            {"generation", s.generation_},
+            {"cycle", s.run().cycle()},
+            {"command", "world_edit"},
+            {"title", title},
+            {"shell", forms.shell},
+            {"python", forms.python},
+            {"undoable", true},
+            {"ended", runs ? ended : std::vector<std::string>()}});
+    if (runs) s.tell(s.world_message());
+}
+
+std::vector<Command> world_commands() {
+    return {
+        {.name = "world_document",
+         .doc = "Returns the message `world_document`.",
+         .result = "WorldDocument",
+         .apply = [](Session& s, const Request&) { return describe_world_text(s); }},
+        {.name = "world_types",
+         .doc = "Lists what the operation `add` makes.",
+         .result = "{ kinds: WorldKind[] }",
+         .apply = list_kinds},
+        {.name = "world_edit",
+         .doc = "Carries out [operations on the world](#the-text-of-the-world), all of them or none. Returns "
+                "the ids "
+                "of what is added or changed. Its `action` has `ended`, which is empty without `run`.",
+         .arguments = {{"operations", list(record({}, "Operation"))},
+                       optional("title", text()),
+                       optional("merge", text(), "", "joins the step before when that has the same name"),
+                       optional("run", boolean(), false,
+                                "whether the run goes on in its world with what these operations `move`")},
+         .result = "{ ids: string[]; generation: number }",
+         .changes_run = true,
+         .apply = edit_world},
+        {.name = "world_save",
+         .doc = "Saves the world and begins the run again in it. Rejected when the system cannot run in it, "
+                "and for "
+                "a world that comes with Forage.",
+         .arguments = {optional("file", text(), nullptr, "`.world`; by default the same"),
+                       optional("overwrite", boolean(), false)},
+         .result = "{ file: string }",
+         .changes_run = true,
+         .apply = save_world},
+    };
+}
+
+}  // namespace forage::studio

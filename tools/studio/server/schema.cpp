@@ -1,0 +1,162 @@
+#include "tools/studio/server/schema.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "core/base/diagnostic.h"
+
+namespace forage::studio {
+namespace {
+
+using Kind = ValueType::Kind;
+
+/// A value in a message.
+std::string shown(const json& value) {
+    constexpr std::size_t max_size = 60;
+    std::string out = value.dump(-1, ' ', false, json::error_handler_t::replace);
+    if (out.size() > max_size) out = out.substr(0, max_size) + "...";
+    return out;
+}
+
+bool in_range(const json& value, const ValueType& type) {
+    const double number = value.get<double>();
+    return std::isfinite(number) && number >= type.low && number <= type.high;
+}
+
+/// Whether a value has the kind of a type, apart from what is in it.
+bool fits(const json& value, const ValueType& type) {
+    switch (type.kind) {
+        case Kind::any:
+            return true;
+        case Kind::boolean:
+            return value.is_boolean();
+        case Kind::whole:
+            return value.is_number_integer() && in_range(value, type);
+        case Kind::number:
+            return value.is_number() && in_range(value, type);
+        case Kind::text:
+            return value.is_string();
+        case Kind::choice:
+            return value.is_string() && std::ranges::count(type.choices, value.get<std::string>()) > 0;
+        case Kind::list:
+            return value.is_array();
+        case Kind::record:
+            return value.is_object();
+    }
+    return false;
+}
+
+std::vector<std::string> names_of(const std::vector<Member>& members) {
+    std::vector<std::string> out;
+    for (const auto& m : members) out.push_back(m.name);
+    return out;
+}
+
+std::string range_in_words(const ValueType& type) {
+    const bool low = std::isfinite(type.low), high = std::isfinite(type.high);
+    if (low && high) return fmt::format(" from {} to {}", type.low, type.high);
+    return low ? fmt::format(" of at least {}", type.low) : "";
+}
+
+}  // namespace
+
+ValueType any(std::string typescript_name) { return {.typescript_name = std::move(typescript_name)}; }
+ValueType boolean() { return {.kind = Kind::boolean}; }
+ValueType whole(double low, double high) { return {.kind = Kind::whole, .low = low, .high = high}; }
+ValueType number(double low, double high) { return {.kind = Kind::number, .low = low, .high = high}; }
+ValueType text() { return {.kind = Kind::text}; }
+ValueType choice(std::vector<std::string> choices) {
+    return {.kind = Kind::choice, .choices = std::move(choices)};
+}
+ValueType list(ValueType element) { return {.kind = Kind::list, .element = {std::move(element)}}; }
+ValueType record(std::vector<Member> members, std::string typescript_name) {
+    return {
+        .kind = Kind::record, .members = std::move(members), .typescript_name = std::move(typescript_name)};
+}
+Member optional(std::string name, ValueType type, json otherwise, std::string doc) {
+    return {std::move(name), std::move(type), std::move(doc), std::move(otherwise)};
+}
+
+std::optional<Mismatch> mismatch(const json& value, const ValueType& type, const std::string& where) {
+    if (!fits(value, type)) return Mismatch{where, "is " + shown(value), in_words(type)};
+    if (type.kind == Kind::record && !type.members.empty()) return mismatch(value, type.members, where);
+    if (type.kind == Kind::list)
+        for (std::size_t i = 0; i < value.size(); ++i)
+            if (auto found = mismatch(value[i], type.element[0], fmt::format("{}[{}]", where, i)))
+                return found;
+    return std::nullopt;
+}
+
+std::optional<Mismatch> mismatch(const json& object, const std::vector<Member>& members,
+                                 const std::string& where) {
+    const auto path = [&](const std::string& name) { return where.empty() ? name : where + "." + name; };
+    for (const auto& [name, member] : object.items())
+        if (std::ranges::find(members, name, &Member::name) == members.end())
+            return Mismatch{path(name), "is not a member",
+                            members.empty() ? "it has no members" : suggest(name, names_of(members))};
+    for (const auto& m : members) {
+        const auto it = object.find(m.name);
+        if (m.required() && it == object.end()) return Mismatch{path(m.name), "is missing", in_words(m.type)};
+        if (it == object.end() || (!m.required() && it->is_null())) continue;
+        if (auto found = mismatch(*it, m.type, path(m.name))) return found;
+    }
+    return std::nullopt;
+}
+
+std::string in_words(const ValueType& type) {
+    switch (type.kind) {
+        case Kind::any:
+            return "any value";
+        case Kind::boolean:
+            return "true or false";
+        case Kind::whole:
+            return "a whole number" + range_in_words(type);
+        case Kind::number:
+            return "a number" + range_in_words(type);
+        case Kind::text:
+            return "a text";
+        case Kind::choice:
+            return fmt::format("{} or {}",
+                               fmt::join(type.choices.begin(), std::prev(type.choices.end()), ", "),
+                               type.choices.back());
+        case Kind::list:
+            return "a list, each element " + in_words(type.element[0]);
+        case Kind::record:
+            break;
+    }
+    return type.members.empty() ? "an object"
+                                : fmt::format("an object with {}", fmt::join(names_of(type.members), ", "));
+}
+
+std::string in_typescript(const ValueType& type) {
+    if (!type.typescript_name.empty()) return type.typescript_name;
+    switch (type.kind) {
+        case Kind::any:
+            return "unknown";
+        case Kind::boolean:
+            return "boolean";
+        case Kind::whole:
+        case Kind::number:
+            return "number";
+        case Kind::text:
+            return "string";
+        case Kind::choice:
+            return fmt::format("'{}'", fmt::join(type.choices, "' | '"));
+        case Kind::list:
+            return in_typescript(type.element[0]) + "[]";
+        case Kind::record:
+            break;
+    }
+    if (type.members.empty()) return "object";
+    std::vector<std::string> members;
+    for (const auto& m : type.members)
+        members.push_back(m.required() ? fmt::format("{}: {}", m.name, in_typescript(m.type))
+                                       : fmt::format("{}?: {} | null", m.name, in_typescript(m.type)));
+    return fmt::format("{{ {} }}", fmt::join(members, "; "));
+}
+
+}  // namespace forage::studio
