@@ -38,8 +38,9 @@ bool left_out(std::string_view message) {
     const auto command = json::parse(message, nullptr, false);
     if (!command.is_object()) return false;
     const auto name = command.value("command", json());
-    for (const char* other : {"sample", "layout_write", "panel_write", "parameters_write", "patterns_write",
-                              "save", "world_save", "export", "backup", "open", "world_open", "step", "run"})
+    for (const char* other :
+         {"sample", "layout_write", "panel_write", "parameters_write", "patterns_write", "save", "world_save",
+          "export", "backup", "open", "world_open", "step", "run", "settings"})
         if (name == other) return true;
     return false;
 }

@@ -38,7 +38,7 @@ struct Command {
     std::string name;
     std::string doc;  ///< one or two sentences, for the table of docs/design/studio-protocol.md
     std::vector<Member> arguments = {};
-    std::string result = "Record<string, never>";  ///< as TypeScript, with the types of web/src/protocol
+    std::string result = "{}";  ///< as TypeScript, with the types of web/src/protocol
     /// Whether it is rejected when another page acted since the `generation` that it names.
     bool changes_run = false;
     json (*apply)(Session& session, const Request& request) = nullptr;

@@ -152,7 +152,8 @@ struct Description {
                 {"note", system.note.value_or("")},
                 {"port", system.port},
                 {"sync_plots", system.sync_plots},
-                {"cycles_per_second", system.cycles_per_second}};
+                {"cycles_per_second", system.cycles_per_second},
+                {"parameters", json::array()}};
     }
 };
 

@@ -124,9 +124,7 @@ std::vector<Command> looking_commands() {
          .arguments = {{"connection", text()},
                        optional("source", cell, nullptr, "the number of a cell, from 0"),
                        optional("target", cell)},
-         .result =
-             "{ total: number; source: number[]; target: number[]; distance: number[]; delay: number[]; "
-             "strength: number[] }",
+         .result = "SynapseTable",
          .apply = list_synapses},
         {.name = "trials",
          .doc = "Lists the finished trials; lengths in m, angles in rad.",

@@ -1,4 +1,5 @@
 // The socket to the server: requests with replies, frames drawn once per animation frame, and reconnection.
+import type { Commands } from './protocol/commands';
 import { decodeFrame, FrameError, type Frame } from './protocol/frame';
 import { problemText, type Problem, type ServerMessage } from './protocol/messages';
 
@@ -25,6 +26,11 @@ export class CommandError extends Error {
     super(problems.map(problemText).join('\n') || 'the server refused this');
   }
 }
+
+export type CommandName = keyof Commands;
+export type Result<C extends CommandName> = Commands[C]['result'];
+/** The arguments of a command. They may be left out when none is required. */
+export type Arguments<C extends CommandName> = {} extends Commands[C]['arguments'] ? [given?: Commands[C]['arguments']] : [given: Commands[C]['arguments']];
 
 interface Waiting { resolve(result: unknown): void; reject(error: Error): void }
 
@@ -62,11 +68,11 @@ export class Connection {
   }
 
   /** Sends a command. Resolves with its result, rejects with a CommandError. */
-  request<T = unknown>(command: string, details: object = {}): Promise<T> {
+  request<C extends CommandName>(command: C, ...[given]: Arguments<C>): Promise<Result<C>> {
     const id = this.nextId++;
     if (this.socket?.readyState !== WebSocket.OPEN) return Promise.reject(new CommandError([{ message: 'there is no connection to the server' }]));
-    this.socket.send(JSON.stringify({ id, command, ...details }));
-    return new Promise<T>((resolve, reject) => this.waiting.set(id, { resolve: resolve as Waiting['resolve'], reject }));
+    this.socket.send(JSON.stringify({ id, command, ...given }));
+    return new Promise<Result<C>>((resolve, reject) => this.waiting.set(id, { resolve: resolve as Waiting['resolve'], reject }));
   }
 
   private lost(): void {

@@ -1,10 +1,9 @@
 // Subscriptions: panels name a source, and receive its blocks. Equal subscriptions share a stream.
+import type { Connection } from './connection';
 import type { Block, Frame } from './protocol/frame';
 
 export type Delivery = 'latest' | 'append';
 export type Listener = (block: Block, frame: Frame) => void;
-/** What the server says of a subscription. */
-export interface StreamInfo { stream: number; rows: number; columns: number; label: string; every: number }
 
 interface Stream {
   id: number | null; // the server's number, once it has replied
@@ -16,7 +15,7 @@ interface Stream {
   last?: { block: Block; frame: Frame };
 }
 
-type Request = (command: string, details: object) => Promise<unknown>;
+type Request = Connection['request'];
 
 export class Streams {
   private byKey = new Map<string, Stream>();
@@ -83,7 +82,7 @@ export class Streams {
     stream.refused = false;
     this.request('subscribe', { source, class: delivery, every }).then(
       (info) => {
-        stream.id = (info as StreamInfo).stream;
+        stream.id = info.stream;
         this.byId.set(stream.id, stream);
         if (stream.listeners.size === 0) this.end(stream);
       },

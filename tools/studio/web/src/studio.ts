@@ -1,7 +1,6 @@
 // Connects the server with the stores. Everything that changes a run goes through `command`.
-import { CommandError, Connection } from './connection';
-import { protocolVersion, type ServerMessage, type SystemMessage } from './protocol/messages';
-import type { TypesResult } from './protocol/editing';
+import { CommandError, Connection, type Arguments, type CommandName, type Result } from './connection';
+import { protocolVersion, type ServerMessage, type SystemMessage, type TypesResult } from './protocol/messages';
 import type { Frame } from './protocol/frame';
 import { editing } from './edit/document.svelte';
 import { endedText } from './edit/ended';
@@ -29,18 +28,18 @@ const connection = new Connection(socketUrl, {
 });
 
 export const streams = new Streams(
-  (command, details) => connection.request(command, details),
+  connection.request.bind(connection),
   // A group that was just drawn has no activity until the system can run.
   (source, error) => run.link === 'open' && editing.message?.running_is_current !== false && actions.tell('error', `${source}: ${error.message}`),
 );
 
 /** Sends a command; the caller shows what goes wrong. */
-export const request = <T = unknown>(name: string, details: object = {}): Promise<T> => connection.request<T>(name, details);
+export const request = <C extends CommandName>(name: C, ...given: Arguments<C>): Promise<Result<C>> => connection.request(name, ...given);
 
 /** Sends a command and shows the server's message when it is refused. Undefined then. */
-export async function command<T = unknown>(name: string, details: object = {}): Promise<T | undefined> {
+export async function command<C extends CommandName>(name: C, ...given: Arguments<C>): Promise<Result<C> | undefined> {
   try {
-    return await request<T>(name, details);
+    return await request(name, ...given);
   } catch (error) {
     actions.tell('error', (error as Error).message);
     return undefined;
@@ -89,7 +88,7 @@ function receive(message: ServerMessage): void {
     }
     case 'document':
       editing.message = message;
-      if (!editing.types) void request<TypesResult>('types').then((t) => (editing.types = t), () => {});
+      if (!editing.types) void request('types').then((t) => (editing.types = t), () => {});
       break;
     case 'world_document':
       worldFile.document = message;

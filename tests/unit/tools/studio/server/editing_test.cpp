@@ -10,6 +10,7 @@
 
 #include "core/base/text_file.h"
 #include "tests/support/catch.h"
+#include "tests/support/studio_protocol.h"
 #include "tools/studio/server/session.h"
 
 namespace {
@@ -47,6 +48,7 @@ struct Editor {
         session.emplace(input, [this](int, bool binary, std::string data) {
             if (binary) return;
             json message = json::parse(data);
+            test::check_message(message);
             const auto type = message["type"].get<std::string>();
             last[type] = std::move(message);
         });
@@ -54,7 +56,11 @@ struct Editor {
     }
     ~Editor() { fs::remove_all(folder); }
 
-    json ask(const json& command) { return session->execute(1, command); }
+    json ask(const json& command) {
+        const json reply = session->execute(1, command);
+        test::check_reply(command, reply);
+        return reply;
+    }
     json result(const json& command) {
         const json reply = ask(command);
         INFO(command.dump() << "\n" << reply.dump(1));

@@ -12,6 +12,7 @@
 #include "core/base/text_file.h"
 #include "tests/support/catch.h"
 #include "tests/support/paths.h"
+#include "tests/support/studio_protocol.h"
 #include "tools/studio/server/http_server.h"
 
 namespace {
@@ -24,10 +25,12 @@ struct Fixture {
     std::map<int, std::vector<json>> messages;
     std::map<int, std::vector<std::string>> frames;
     Session session{input(), [this](int client, bool binary, std::string data) {
-                        if (binary)
+                        if (binary) {
                             frames[client].push_back(std::move(data));
-                        else
+                        } else {
                             messages[client].push_back(json::parse(data));
+                            test::check_message(messages[client].back());
+                        }
                     }};
 
     static RunInput input() {
@@ -36,9 +39,13 @@ struct Fixture {
         out.world = FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world";
         return out;
     }
-    json ask(json command, int client = 1) { return session.execute(client, command); }
-    json result(json command, int client = 1) {
-        const json reply = ask(std::move(command), client);
+    json ask(const json& command, int client = 1) {
+        const json reply = session.execute(client, command);
+        test::check_reply(command, reply);
+        return reply;
+    }
+    json result(const json& command, int client = 1) {
+        const json reply = ask(command, client);
         INFO(reply.dump());
         REQUIRE(reply["ok"] == true);
         return reply.value("result", json());

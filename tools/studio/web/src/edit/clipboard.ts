@@ -21,7 +21,7 @@ export function withConnections(ids: string[]): string[] {
 /** Copies items, with the connections between their groups or without. */
 export async function copy(ids: string[], connections = true): Promise<boolean> {
   if (ids.length === 0) return false;
-  const result = await command<{ text: string }>('copy', connections ? { ids: withConnections(ids) } : { ids, connections });
+  const result = await command('copy', connections ? { ids: withConnections(ids) } : { ids, connections });
   if (!result) return false;
   kept = result.text;
   await navigator.clipboard?.writeText(result.text).catch(() => {});

@@ -1,5 +1,5 @@
 // The document that is edited: whether it is saved, what is wrong with it, and which types there are. The server holds its content.
-import type { DocumentMessage, DocumentProblem, TypesResult } from '../protocol/editing';
+import type { DocumentMessage, DocumentProblem, TypesResult } from '../protocol/messages';
 
 class DocumentState {
   message = $state.raw<DocumentMessage | null>(null);

@@ -1,5 +1,5 @@
 // New, open, save and the others: what they do, and which dialog is open.
-import type { FilesResult } from '../protocol/editing';
+import type { FilesResult } from '../protocol/messages';
 import { actions } from '../stores/actions.svelte';
 import { dock } from '../stores/dock.svelte';
 import { model } from '../stores/model.svelte';
@@ -44,8 +44,8 @@ class FileDialog {
     if (action === 'save the world') this.name = baseName(world);
     // A world finds its models from its own folder. A system that comes with Forage is saved where the studio was started.
     void this.list(action === 'save the world' || action === 'world' ? folderOf(world || this.world) : action === 'save as' && editing.shipped ? '.' : '');
-    if (action === 'open' || action === 'new' || action === 'world') void request<{ worlds: string[] }>('shipped').then((r) => (this.shipped = r.worlds), () => {});
-    if (action === 'open') void request<{ files: string[] }>('recent').then((r) => (this.recent = r.files), () => {});
+    if (action === 'open' || action === 'new' || action === 'world') void request('shipped').then((r) => (this.shipped = r.worlds), () => {});
+    if (action === 'open') void request('recent').then((r) => (this.recent = r.files), () => {});
   }
   /** Asks for a file, and does something with it. Before a file is replaced, the dialog asks again. */
   choose(task: FileTask): void {
@@ -60,7 +60,7 @@ class FileDialog {
   }
   private async read(folder: string): Promise<void> {
     try {
-      this.listing = await request<FilesResult>('files', { folder });
+      this.listing = await request('files', { folder });
       this.error = '';
     } catch (e) {
       this.error = (e as Error).message;
@@ -92,7 +92,7 @@ class FileDialog {
       'save as': () => request('save', { file: /\.iqr$|\.xml$/.test(file) ? file : `${file}.iqr`, overwrite }),
       import: () => request('import', { file, link: false }),
       link: () => request('import', { file, link: true }),
-      export: () => request('export', { process: this.process, file, overwrite }),
+      export: () => request('export', { process: this.process ?? '', file, overwrite }),
       world: () => request('world_open', { world: file }),
       other: () => this.task!.act(file, overwrite),
       'save the world': () => request('world_save', { file: /\.world$/.test(file) ? file : `${file}.world`, overwrite }),
@@ -158,7 +158,7 @@ export async function backup(): Promise<void> {
   } catch (e) {
     return actions.tell('error', (e as Error).message);
   }
-  const done = await command<{ file: string }>('backup');
+  const done = await command('backup');
   if (done) actions.tell('info', `The backup is ${baseName(done.file)}.`);
 }
 

@@ -1,13 +1,12 @@
 // Changes of the document. Each call is one step of undo.
-import type { Operation } from '../protocol/editing';
-import type { ConnectionKind, ParameterInfo, ParameterValue } from '../protocol/messages';
+import type { ConnectionKind, Operation, ParameterInfo, ParameterValue } from '../protocol/messages';
 import { actions } from '../stores/actions.svelte';
 import { command, request } from '../studio';
 import { editing } from './document.svelte';
 
 /** Sends operations, all of them or none. Resolves with the ids that were made. Rejects when they are refused, for a form that says so at its field. */
 export async function attempt(operations: Operation | Operation[], title?: string, merge?: string): Promise<(string | null)[]> {
-  const result = await request<{ ids?: (string | string[] | null)[] }>('edit', { operations: [operations].flat(), ...(title ? { title } : {}), ...(merge ? { merge } : {}) });
+  const result = await request('edit', { operations: [operations].flat(), ...(title ? { title } : {}), ...(merge ? { merge } : {}) });
   return (result.ids ?? []).flat();
 }
 

@@ -1,5 +1,5 @@
 // Problems in the words of the forms, where the form can mend them.
-import type { DocumentProblem } from '../protocol/editing';
+import type { DocumentProblem } from '../protocol/messages';
 import { model } from '../stores/model.svelte';
 import { editing } from './document.svelte';
 

@@ -1,6 +1,6 @@
 // The world's file as it is edited. The run keeps its world until the file is saved; only a light that is dragged in the arena acts at once.
 import { request } from '../studio';
-import type { WorldDocument } from '../protocol/editing';
+import type { WorldDocument } from '../protocol/messages';
 
 class WorldFile {
   document = $state.raw<WorldDocument | null>(null);
@@ -10,7 +10,7 @@ class WorldFile {
 
   async load(): Promise<void> {
     try {
-      this.document = await request<WorldDocument>('world_document');
+      this.document = await request('world_document');
       this.missing = '';
     } catch (e) {
       this.document = null;

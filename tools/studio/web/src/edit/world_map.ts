@@ -1,5 +1,5 @@
 // The map of a world on the screen: x to the right, y upwards, metres.
-import type { WorldItem, WorldPart } from '../protocol/editing';
+import type { WorldItem, WorldPart } from '../protocol/messages';
 
 export interface View { x: number; y: number; width: number; height: number }
 

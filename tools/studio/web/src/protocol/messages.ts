@@ -1,6 +1,5 @@
-// Control messages: JSON in both directions, as docs/design/studio-protocol.md describes them.
-
-import type { DocumentMessage, WorldDocument } from './editing';
+// What the server sends as JSON: its messages, and the types of the results of commands. The unit tests of the server compare
+// all that it sends with these types. Commands and their arguments are in commands.ts.
 
 export const protocolVersion = 1;
 
@@ -94,9 +93,12 @@ export interface RobotInfo {
   scans: string[];
 }
 
+/** The system has no world. */
+export interface NoWorldMessage { type: 'world'; file: null }
+
 export interface WorldMessage {
   type: 'world';
-  file: string | null;
+  file: string;
   /** Left, bottom, right, top, in m. */
   view: [number, number, number, number];
   picture: string;
@@ -110,6 +112,9 @@ export interface WorldMessage {
 }
 
 export type SpeedMode = 'real' | 'times' | 'cycles' | 'free';
+
+/** `smallest_distance` is null before one was measured. */
+export interface TrialProgress { number: number; seconds: number; reached_target: boolean; smallest_distance: number | null }
 
 export interface StatusMessage {
   type: 'status';
@@ -136,8 +141,8 @@ export interface StatusMessage {
   trials: {
     finished: number;
     reached: number;
-    current: { number: number; seconds: number; smallest_distance: number } | null;
-    last: { number: number; seconds: number; reached_target: boolean } | null;
+    current: TrialProgress;
+    last: TrialProgress | null;
   } | null;
   /** The run goes beside another one since this cycle: sources with "reference:" before them. */
   compare: { from: number } | null;
@@ -172,16 +177,17 @@ export interface Problem { severity?: string; file?: string; line?: number; colu
 
 export interface ReplyMessage { type: 'reply'; id: number; ok: boolean; conflict?: boolean; reason?: string; result?: unknown; problems?: Problem[] }
 
-export type ServerMessage = HelloMessage | SystemMessage | WorldMessage | StatusMessage | ActionMessage | DocumentMessage | WorldDocument | ReplyMessage;
+export type ServerMessage = HelloMessage | SystemMessage | WorldMessage | NoWorldMessage | StatusMessage | ActionMessage | DocumentMessage | WorldDocument | ReplyMessage;
 
 export type ParameterValue = boolean | number | string;
+export type ParameterKind = 'boolean' | 'real' | 'integer' | 'text';
 
 export interface ParameterInfo {
   name: string;
   label: string;
   doc: string;
   unit: string;
-  kind: 'boolean' | 'real' | 'integer' | 'text';
+  kind: ParameterKind;
   value: ParameterValue;
   default: ParameterValue;
   /** The value that the file gives. */
@@ -195,6 +201,158 @@ export interface ParameterInfo {
 }
 
 export interface ItemParameters { item: string; id: string; kind: string; type: string; parameters: ParameterInfo[] }
+
+// ---- editing ----
+
+/** `port`, `parameter`: the field of the item that it is about; `unset`: the port is required, and leads nowhere. */
+export interface DocumentProblem extends Problem { item?: string | null; port?: string; parameter?: string; unset?: boolean }
+
+/** The document as it is now. The server sends it after each change. */
+export interface DocumentMessage {
+  type: 'document';
+  /** Empty for a system that has no file yet. */
+  file: string;
+  /** The system of which the file is a backup: it is not written. */
+  backup_of: string | null;
+  /** Whether the file comes with Forage: it is not written. */
+  shipped: boolean;
+  name: string;
+  dirty: boolean;
+  /** Whether the text has a system; without one, the items are those of the last text that had one. */
+  readable: boolean;
+  /** Whether the system was opened with mistakes that must be corrected before it runs for the first time. */
+  opened_with_mistakes: boolean;
+  problems: DocumentProblem[];
+  /** "changed" when another program wrote the file. */
+  outside: string | null;
+  undo: string | null;
+  redo: string | null;
+  running_is_current?: boolean;
+}
+
+export type Place = [number, number];
+
+/** Cells of a group; columns and rows from 1, as in the file. */
+export type Region = { form: 'all' } | { form: 'region'; x: number; y: number; width: number; height: number } | { form: 'list'; points: Place[] };
+export interface Tuple { source: Place[]; target: Place[] }
+export type Pattern =
+  | { form: 'foreach'; source: Region; target: Region }
+  | { form: 'mapped'; mapping: 'center' | 'all'; source: Region; target: Region }
+  | { form: 'tuples'; tuples: Tuple[] };
+
+/** A type with values of its parameters: an arborization or a function of distance. */
+export interface Typed { type: string; values: Record<string, ParameterValue> }
+
+export interface Topology { form: 'rect' | 'sparse'; width?: number; height?: number; wrap_x?: boolean; wrap_y?: boolean; points?: Place[] }
+export interface Port { name: string; label?: string; doc?: string; optional: boolean; group: string }
+
+/** `linked`: it is in the file of a linked process. `other_system`: it runs beside the system that is edited. */
+export interface Common { id: string; name: string; color?: string; note?: string; icon?: Icon | null; linked?: boolean; other_system?: boolean; text: string; parameters: ParameterInfo[] }
+export interface Feedback { name: string; label: string; required: boolean; state: string }
+export interface GroupItem extends Common { kind: 'group'; process: string; path: string; neuron: string; topology: Topology; cells: number }
+export interface ConnectionItem extends Common {
+  kind: 'connection';
+  source: string;
+  target: string;
+  sign: ConnectionKind;
+  synapse: string;
+  pattern: Pattern | null;
+  arborization: Typed | null;
+  attenuation: Typed | null;
+  delay: Typed | null;
+  feedback?: Feedback[];
+  /** States of the target's cells, for the feedback. */
+  states?: string[];
+  synapses: number;
+}
+export interface ProcessItem extends Common { kind: 'process'; path: string; enabled: boolean; module: string | null; inputs: Port[]; outputs: Port[] }
+export interface SystemItem extends Common { kind: 'system'; author: string; date: string; port: string; sync_plots: boolean; cycles_per_second: number }
+export interface CommentItem extends Common { kind: 'comment'; content: string; width: number; height: number }
+export type EditItem = GroupItem | ConnectionItem | ProcessItem | SystemItem | CommentItem;
+
+export interface FormParameter {
+  name: string;
+  label?: string;
+  doc?: string;
+  unit?: string;
+  kind: ParameterKind;
+  default: ParameterValue;
+  low?: number | null;
+  high?: number | null;
+  options?: string[];
+  at_start?: boolean;
+  path?: boolean;
+  value?: ParameterValue;
+  loaded?: ParameterValue;
+  assignment?: string;
+}
+/** A cross reference of a type. */
+export interface TypePort { name: string; label?: string; doc?: string; optional?: boolean; required?: boolean }
+export interface TypeInfo { type: string; label?: string; doc?: string; parameters: FormParameter[]; states?: State[]; reads?: ConnectionKind[]; inputs?: TypePort[]; outputs?: TypePort[]; any_ports?: boolean; feedback?: TypePort[] }
+export interface TypesResult { neurons: TypeInfo[]; synapses: TypeInfo[]; modules: TypeInfo[]; arborizations: TypeInfo[]; functions: TypeInfo[] }
+
+/** `pairs` is the number of those that are listed. */
+export interface PreviewResult { synapses: number; pairs: number; source: number[]; target: number[] }
+/** A backup of a system; `time` is local. */
+export interface BackupFile { file: string; system: string; time: string }
+/** `backups`: the latest of a system first. */
+export interface FilesResult { folder: string; parent?: string | null; folders: string[]; files: string[]; backups: BackupFile[] }
+
+/** One change of the document; `do` says which. */
+export type Operation = { do: string } & Record<string, unknown>;
+
+/** A shape of an item, in its frame: width and depth of a box, or a radius. */
+export interface WorldPart { x: number; y: number; yaw: number; size: number[]; color: string }
+export interface WorldProperty { name: string; label: string; kind: 'text' | 'number' | 'integer' | 'boolean' | 'choice' | 'color'; value: string | number | boolean; low: number | null; high: number | null; choices: string[] }
+export interface WorldItem { id: string; name: string; kind: string; placed: boolean; unpacks: boolean; x: number; y: number; z: number; yaw: number; parts: WorldPart[]; properties: WorldProperty[] }
+export interface WorldKind { kind: string; title: string }
+/** The items of the world's file. The server sends it after each change of it. */
+export interface WorldDocument { type: 'world_document'; file: string; dirty: boolean; items: WorldItem[] }
+
+/** A cell's partners: rows of the same index are one synapse. */
+export interface SynapseTable { total: number; source: number[]; target: number[]; distance: number[]; delay: number[]; strength: number[] }
+/** A finished trial; poses are x, y and yaw. */
+export interface Trial {
+  number: number;
+  seconds: number;
+  first_cycle: number;
+  cycles: number;
+  reached_target: boolean;
+  start: [number, number, number];
+  end: [number, number, number];
+  /** Null when no distance was measured. */
+  smallest_distance: number | null;
+}
+/** The manipulation of a group; `times` is null for endlessly. */
+export interface Driven { group: string; mode: 'clamp' | 'add' | 'multiply'; patterns: number[][]; every: number; step: number; times: number | null; backwards: boolean }
+/** A parameter that a panel of the original shows. */
+export interface PanelRow extends ParameterInfo { item: string; id: string; owner: string }
+
+// ---- the format of system files ----
+
+export interface AttributeRule {
+  name: string;
+  doc: string;
+  required: boolean;
+  kind: 'text' | 'choice' | 'boolean' | 'number' | 'whole';
+  unit: string;
+  default: string;
+  /** What a text names. */
+  names: 'neuron' | 'synapse' | 'module' | 'parameter' | 'value' | 'port' | 'group' | 'target' | null;
+  low?: number | null;
+  high?: number | null;
+  choices?: string[];
+}
+export interface ElementRule {
+  name: string;
+  doc: string;
+  children: { name: string; several: boolean; required: boolean }[];
+  /** The number of elements in it when they are alternatives, else 0. */
+  choose: number;
+  text: boolean;
+  attributes: AttributeRule[];
+}
+export interface Vocabulary { root: string; elements: ElementRule[] }
 
 /** One problem as a line of text, as the command line prints it. */
 export function problemText(p: Problem): string {

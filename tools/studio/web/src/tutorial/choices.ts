@@ -8,7 +8,7 @@ export async function showChoices(body: HTMLElement): Promise<void> {
   for (const choices of body.querySelectorAll<HTMLElement>('.setup.active .choices')) {
     const assignment = choices.getAttribute('aria-label')!;
     const item = assignment.slice(0, assignment.lastIndexOf('.'));
-    const value = await request<ItemParameters>('parameters', { item }).then(
+    const value = await request('parameters', { item }).then(
       (r) => r.parameters.find((p) => p.assignment === assignment)?.value,
       () => undefined, // the system that is open is another one
     );

@@ -1,7 +1,7 @@
 // What can be written at a place of a system file: elements, attributes and values, with their meanings.
-import type { FormParameter, TypeInfo, TypesResult } from '../protocol/editing';
+import type { AttributeRule, FormParameter, TypeInfo, TypesResult, Vocabulary } from '../protocol/messages';
 import { all, around, scan, valueOf, type Tag } from './scan';
-import { elementRule, type AttributeRule, type Vocabulary } from './vocabulary';
+import { elementRule } from './vocabulary';
 
 export interface KnownGroup { id: string; path: string; neuron: string; process: string }
 export interface Knowledge { vocabulary: Vocabulary; types: TypesResult; /** The groups of the system, which the text may name. */ groups: KnownGroup[] }

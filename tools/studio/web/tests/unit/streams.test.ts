@@ -14,7 +14,7 @@ function server() {
     sent.push([command, details as Record<string, unknown>]);
     return Promise.resolve(command === 'subscribe' ? { stream: next++ } : {});
   };
-  return { sent, streams: new Streams(request, (_, e) => { throw e; }) };
+  return { sent, streams: new Streams(request as unknown as ConstructorParameters<typeof Streams>[0], (_, e) => { throw e; }) };
 }
 const settle = () => new Promise((r) => setTimeout(r));
 

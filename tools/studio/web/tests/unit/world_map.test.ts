@@ -1,6 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { corners, degrees, drawn, ends, reach, viewOf, zoomed } from '../../src/edit/world_map';
-import type { WorldItem, WorldPart } from '../../src/protocol/editing';
+import type { WorldItem, WorldPart } from '../../src/protocol/messages';
 
 const part = (x: number, y: number, size: number[]): WorldPart => ({ x, y, yaw: 0, size, color: '#ff0000' });
 const item = (kind: string, x: number, y: number, parts: WorldPart[] = [], placed = true): WorldItem => ({ id: kind, name: kind, kind, placed, unpacks: false, x, y, z: 0, yaw: 0, parts, properties: [] });

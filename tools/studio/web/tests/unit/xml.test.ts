@@ -1,12 +1,11 @@
 // What the XML editor suggests, where it marks mistakes, and what it leaves of a file's line ends.
 import { describe, expect, it } from 'vitest';
-import type { TypesResult } from '../../src/protocol/editing';
+import type { AttributeRule, ElementRule, TypesResult } from '../../src/protocol/messages';
 import { closingAhead } from '../../src/xml/closing';
 import { withLineEnds } from '../../src/xml/line_ends';
 import { extent, marksOf, unitsBefore } from '../../src/xml/marks';
 import { scan } from '../../src/xml/scan';
 import { suggest, type Knowledge, type Suggestion } from '../../src/xml/suggest';
-import type { AttributeRule, ElementRule } from '../../src/xml/vocabulary';
 
 const attribute = (name: string, more: Partial<AttributeRule> = {}): AttributeRule => ({ name, doc: `doc of ${name}`, required: false, kind: 'text', unit: '', default: '', names: null, ...more });
 const needed = (name: string, more: Partial<AttributeRule> = {}) => attribute(name, { required: true, ...more });

@@ -1,6 +1,5 @@
 // Cells of groups and how patterns name them: columns and rows from 1, as in the file.
-import type { Group } from '../../protocol/messages';
-import type { Pattern, Place, Region, Tuple } from '../../protocol/editing';
+import type { Group, Pattern, Place, Region, Tuple } from '../../protocol/messages';
 
 export const keyOf = ([x, y]: Place): string => `${x},${y}`;
 
