@@ -549,13 +549,6 @@ class Edit(Cli):
         self.assertTrue((self.here / "dangling.iqr").is_symlink() and (self.here / "made.iqr").is_file())
         self.assertIn("Pillar", world.read_text())
 
-    def test_parts_of_the_text_are_replaced(self):
-        (self.here / "small.iqr").write_text(SMALL_SYSTEM)
-        why = {"do": "replace", "parts": [{"old": "<Process", "new": "<!-- why -->\n  <Process"}]}
-        self.forage("edit", "small.iqr", json.dumps([why, {"do": "system", "author": "Ada"}]))
-        self.assertIn("<!-- why -->\n  <Process", (self.here / "small.iqr").read_text())
-        self.assertIn('author="Ada"', (self.here / "small.iqr").read_text())
-
     def test_mistakes(self):
         (self.here / "small.iqr").write_text(SMALL_SYSTEM)
         self.assertIn("there is no operation 'grow'", self.forage("edit", "small.iqr", '[{"do": "grow"}]', status=2).stderr)
@@ -569,8 +562,6 @@ class Edit(Cli):
         self.assertIn("does not end with .iqr", self.forage("edit", "small.iqr", "[]", "-o", "small.world", status=2).stderr)
         self.assertIn("operation 2: there is no operation", self.forage("edit", "small.iqr", '[{"do": "add_process", "name": "Q"}, {"do": "grow"}]', "-o", "absent/x.iqr", status=2).stderr)
         self.assertIn("control character", self.forage("edit", "small.iqr", r'{"do": "ports", "id": "p", "outputs": {"o\u0001": "a"}}', status=2).stderr)
-        self.assertIn("'old' of part 1 is in the text several times", self.forage("edit", "small.iqr", '{"do": "replace", "parts": [{"old": "<Group", "new": "<group"}]}', status=2).stderr)
-        self.assertRegex(self.forage("edit", "small.iqr", '{"do": "replace", "parts": [{"old": "<System", "new": "<Sys"}]}', status=2).stderr, r"small\.iqr:\d+:\d+: error: ")
         self.assertIn("a number is too large", self.forage("edit", "small.iqr", '{"do": "place", "id": "a", "x": 1e999, "y": 1}', status=2).stderr)
         with tempfile.TemporaryDirectory() as folder:
             operations = pathlib.Path(folder) / "operations.json"

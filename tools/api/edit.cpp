@@ -12,7 +12,6 @@
 #include "tools/api/json_text.h"
 #include "tools/api/operations.h"
 #include "tools/api/sources.h"
-#include "tools/api/text_parts.h"
 #include "tools/api/world_operations.h"
 
 namespace forage {
@@ -93,29 +92,14 @@ json edit_system(const std::string& path, const json& operations, const std::str
     throw_errors(diagnostics);
     const auto before = document.problems(types);
     json made = json::array();
-    const auto is_text = [](const json& o) {
-        if (!o.is_object() || !o.contains("do")) return false;
-        const auto* what = o["do"].get_ptr<const std::string*>();
-        return what && *what == "replace";
-    };
-    const auto replace = [&](const json& o) {
-        document.replace_text(editing::with_parts_replaced(document.text(), o), "replace");
-        return json();
-    };
-    while (made.size() < operations.size()) {
-        if (is_text(operations[made.size()])) {  // as its author wrote it, not as the model of it is written
-            made.push_back(attempt(operations, made.size(), replace));
-            continue;
-        }
-        document.edit(
-            [&](model::System& system) {
-                while (made.size() < operations.size() && !is_text(operations[made.size()]))
-                    made.push_back(attempt(operations, made.size(), [&](const json& o) {
-                        return editing::carry_out(o, system, types, path);
-                    }));
-            },
-            "edit");
-    }
+    document.edit(
+        [&](model::System& system) {
+            for (std::size_t i = 0; i < operations.size(); ++i)
+                made.push_back(attempt(operations, i, [&](const json& o) {
+                    return editing::carry_out(o, system, types, path);
+                }));
+        },
+        "edit");
     prepare(save_as);
     document.save(save_as == path ? std::string() : save_as, types, true);
     add_new_problems(before, document.problems(types), warnings);

@@ -14,7 +14,6 @@
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
 #include "tools/api/forms.h"
-#include "tools/api/text_parts.h"
 
 namespace forage::editing {
 namespace {
@@ -181,13 +180,6 @@ struct Operation {
         return model::paste(system, *std::move(content), text("process", ""), whole_from(o.at("x")),
                             whole_from(o.at("y")));
     }
-    json replace() {
-        Diagnostics diagnostics;
-        auto read = xml::parse_system(path, with_parts_replaced(xml::write_system(system), o), diagnostics);
-        if (!read) throw InputError(std::move(diagnostics));
-        system = *std::move(read);
-        return nullptr;
-    }
     json import() {
         Diagnostics diagnostics;
         auto file = xml::read_process(text("file"), diagnostics);
@@ -235,7 +227,6 @@ const std::map<std::string, json (Operation::*)()>& operations_by_name() {
         {"paste", &Operation::paste},
         {"import", &Operation::import},
         {"system", &Operation::system_properties},
-        {"replace", &Operation::replace},
     };
     return operations;
 }
@@ -312,7 +303,6 @@ std::string title_of(const json& o, const System& system) {
     if (what == "rename") return fmt::format("rename {} to {}", name, o.value("name", ""));
     if (what == "set") return fmt::format("{} of {}", o.value("property", "property"), name);
     if (what == "paste") return "paste";
-    if (what == "replace") return "edit the text of the system";
     if (what == "system") return "properties of the system";
     return fmt::format("{} of {}", what, name);
 }

@@ -9,7 +9,6 @@
 
 #include "bug_interface/world/sdf_edit.h"
 #include "core/run/input_error.h"
-#include "tools/api/text_parts.h"
 
 namespace forage::editing {
 namespace {
@@ -31,7 +30,6 @@ std::string value_of(const json& v) {
 
 json carry_out_in_world(const json& o, std::string& text, bug::ModelTexts& models) {
     const auto what = o.at("do").get<std::string>();
-    if (what == "replace") return text = with_parts_replaced(text, o), nullptr;
     if (what == "add") {
         bug::NewItem item{.kind = o.at("kind"), .name = o.value("name", ""), .x = o.at("x"), .y = o.at("y")};
         item.yaw = o.value("yaw", item.yaw), item.width = number_in(o, "width");
@@ -42,8 +40,7 @@ json carry_out_in_world(const json& o, std::string& text, bug::ModelTexts& model
         return id;
     }
     if (what != "move" && what != "set" && what != "unpack" && what != "remove")
-        throw InputError(fmt::format("there is no operation '{}'", what),
-                         "add, move, set, unpack, remove or replace");
+        throw InputError(fmt::format("there is no operation '{}'", what), "add, move, set, unpack or remove");
     auto id = o.at("id").get<std::string>();
     if (what == "move") {
         text = bug::moved_in_world(text, id, o.at("x"), o.at("y"), number_in(o, "yaw"), models);

@@ -139,7 +139,11 @@ std::string text_of(const nlohmann::json& operations) {
     return operations.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-/// Empty when there is no file, and for operations that are too long.
+bool is_short(const nlohmann::json& operations) {
+    constexpr std::size_t max_size = 100'000;  // bytes; Linux takes 128 KiB of an argument
+    return text_of(operations).size() <= max_size;
+}
+
 std::string command_of(const EditedFile& file, const nlohmann::json& operations) {
     if (file.path.empty() || !is_short(operations)) return {};
     std::string out = fmt::format("forage edit {} {}", quoted(file.path), quoted(text_of(operations)));
@@ -147,7 +151,7 @@ std::string command_of(const EditedFile& file, const nlohmann::json& operations)
     return out;
 }
 
-/// A call with a list of operations; empty when they are too long.
+/// A call with a list of operations.
 std::string call_of(const std::string& begin, const nlohmann::json& operations) {
     if (!is_short(operations)) return {};
     std::vector<std::string> lines;
@@ -157,39 +161,19 @@ std::string call_of(const std::string& begin, const nlohmann::json& operations) 
 
 }  // namespace
 
-bool is_short(const nlohmann::json& operations) {
-    constexpr std::size_t most = 100'000;  // bytes; Linux takes 128 KiB of an argument
-    return text_of(operations).size() <= most;
+Equivalent of_edit(const EditedFile& file, const nlohmann::json& operations) {
+    return {command_of(file, operations), call_of("system.edit(", operations)};
 }
 
-Equivalent of_edit(const EditedFile& file, const nlohmann::json& in_shell, const nlohmann::json& in_python) {
-    Equivalent out;
-    if (!in_shell.empty()) out.shell = command_of(file, in_shell);
-    if (!in_python.empty())
-        out.python = call_of("system.edit(", in_python);
-    else if (!in_shell.empty())
-        out.python = "# The text of the file differs, but not what a System holds of it.";
-    return out;
-}
-
-Equivalent of_save(const EditedFile& file, const std::string& to, const nlohmann::json& in_shell,
-                   const nlohmann::json& in_python) {
-    Equivalent out;
-    const bool renamed = to != file.path;
-    if (renamed || !in_shell.empty()) out.shell = command_of(file, in_shell);  // else it is written already
-    if (renamed && !out.shell.empty()) out.shell += " -o " + quoted(to);
-    const auto edit = in_python.empty() ? std::string() : call_of("system.edit(", in_python) + '\n';
-    if (edit != "\n") out.python = edit + fmt::format("system.save({})", literal(to));
-    return out;
+Equivalent of_save(const EditedFile& file, const std::string& to) {
+    auto shell = to == file.path ? "" : command_of(file, nlohmann::json::array());
+    if (!shell.empty()) shell += " -o " + quoted(to);
+    return {shell, fmt::format("system.save({})", literal(to))};
 }
 
 Equivalent of_world_edit(const EditedFile& file, const nlohmann::json& operations) {
     return {command_of(file, operations),
             call_of(fmt::format("forage.edit_file({}, ", literal(file.path)), operations)};
-}
-
-Equivalent of_saved(const std::string& file) {
-    return {"", fmt::format("system = forage.System.read({})", literal(file))};
 }
 
 Equivalent of_world_copy(const EditedFile& file, const std::string& to) {

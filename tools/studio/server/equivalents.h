@@ -35,19 +35,14 @@ struct EditedFile {
     std::string path;
     std::vector<std::string> plugins = {};
 };
-/// Whether operations are short enough for a form.
-bool is_short(const nlohmann::json& operations);
-/// Operations on the system in a file, and on a System of Python. A form is empty when its operations are
-/// none, or not short.
-Equivalent of_edit(const EditedFile& file, const nlohmann::json& in_shell, const nlohmann::json& in_python);
-/// A system that is saved in the file `to`, with operations that are still to be carried out. A form is empty
-/// when these are not short.
-Equivalent of_save(const EditedFile& file, const std::string& to, const nlohmann::json& in_shell,
-                   const nlohmann::json& in_python);
-/// Operations on the world in a file, likewise.
+/// Operations on the system in a file, and on a System of Python. Empty when they are longer than 100,000
+/// bytes; the shell's also without a file.
+Equivalent of_edit(const EditedFile& file, const nlohmann::json& operations);
+/// A system that is saved in the file `to`. The shell's is empty for the same file, which `forage edit` has
+/// written.
+Equivalent of_save(const EditedFile& file, const std::string& to);
+/// Operations on the world in a file; empty as those of a system are.
 Equivalent of_world_edit(const EditedFile& file, const nlohmann::json& operations);
-/// A system that the studio has saved, with edits that had no form.
-Equivalent of_saved(const std::string& file);
 /// A world that is saved under another name.
 Equivalent of_world_copy(const EditedFile& file, const std::string& to);
 /// A robot or an object that is moved before the cycle with this number.

@@ -21,7 +21,6 @@
 #include "tools/studio/server/equivalents.h"
 #include "tools/studio/server/history.h"
 #include "tools/studio/server/recovery.h"
-#include "tools/studio/server/scripted_system.h"
 #include "tools/studio/server/settings.h"
 #include "tools/studio/server/touches.h"
 
@@ -172,9 +171,8 @@ class Session {
     /// Opens another system, and tells the pages. Throws InputError, and leaves everything as it is then.
     void open_document(const RunInput& input);
     /// Makes the run what the document says, as far as that can run, and tells the pages.
-    /// `operations` is what an edit has carried out on the text before.
-    void follow_document(const std::string& title, const std::string& text_before = {},
-                         const json& operations = json::array());
+    /// `script` does the same as the edit; empty for a text and for undo, which have none.
+    void follow_document(const std::string& title, const Equivalent& script = {});
     /// Builds the run anew; groups and connections that did not change keep their states. Returns false, with
     /// the run as it was, when the system cannot run.
     /// At cycle 0 it begins anew, unless it `goes_on` there, too.
@@ -224,7 +222,6 @@ class Session {
     Changes changed_;
     std::optional<Sampler> sampler_;
     std::optional<Document> document_;
-    ScriptedSystem scripted_;
     std::optional<WorldText> world_text_;
     model::System built_;                      ///< the document's system that runs
     std::vector<model::System> others_;        ///< systems that run beside it

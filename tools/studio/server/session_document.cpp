@@ -50,7 +50,6 @@ void Session::begin_document(const RunInput& input) {
     }
     world_text_.reset();
     built_ = document_->system();
-    scripted_.begin(*document_);
     current_ = true, outside_ = false;
     problems_ = document_->problems(run_->registry(), run_->environment());
     changed_.clear(), undo_.clear(), redo_.clear();
@@ -87,7 +86,6 @@ void Session::open_with_mistakes(const RunInput& input, const Diagnostics& found
     }
     begin_document(nothing);
     document_ = std::move(document);
-    scripted_.begin(*document_);
     current_ = false;
     problems_ = document_->located(found);
     wanted_ = input, mistakes_ = found;
@@ -235,15 +233,7 @@ void Session::note_parameters(const std::vector<std::string>& assignments) {
     }
 }
 
-void Session::follow_document(const std::string& title, const std::string& text_before,
-                              const json& operations) {
-    std::optional<Equivalent> forms;
-    const auto form = [&] {
-        if (!forms)
-            forms = scripted_.edit(edited_file(document_->path()), text_before, operations, *document_,
-                                   run_->registry());
-        return *forms;
-    };
+void Session::follow_document(const std::string& title, const Equivalent& script) {
     const auto& now = document_->system();
     const auto changes = model::parameter_changes(built_, now, run_->registry());
     const auto before = generation_;
@@ -263,15 +253,17 @@ void Session::follow_document(const std::string& title, const std::string& text_
                 assignments.push_back(a.text);
                 values[a.text.substr(0, a.text.find('='))] = a.text.substr(a.text.find('=') + 1);
             }
-            // What a run does not know is said of the system.
-            const bool more = !scripted_.has_all_but_parameters(*document_, run_->registry());
             built_ = now;
             if (!assignments.empty()) {
-                auto same = of_assignments(assignments, run_->cycle());
-                if (more && !form().shell.empty()) same.shell += '\n' + form().shell;
-                if (more && !form().python.empty()) same.python += '\n' + form().python;
+                const auto set = of_assignments(assignments, run_->cycle());
+                const auto with = [](const std::string& a, const std::string& b) {
+                    return b.empty() ? a : a + '\n' + b;
+                };
                 act({{"command", "set"}, {"assignments", assignments}}, std::nullopt,
-                    {{"title", title}, {"values", values}, {"shell", same.shell}, {"python", same.python}});
+                    {{"title", title},
+                     {"values", values},
+                     {"shell", with(set.shell, script.shell)},
+                     {"python", with(set.python, script.python)}});
             }
         }
     } else {
@@ -287,8 +279,8 @@ void Session::follow_document(const std::string& title, const std::string& text_
               {"cycle", run_->cycle()},
               {"command", "edit"},
               {"title", title},
-              {"shell", form().shell},
-              {"python", form().python},
+              {"shell", script.shell},
+              {"python", script.python},
               {"undoable", true},
               {"ended", std::move(ended)}});
     }

@@ -208,7 +208,6 @@ void Session::recover() {
     wanted_ = std::move(killed.wanted);
     if (killed.current) built_ = killed.document.system();
     document_ = std::move(killed.document), current_ = killed.current;
-    scripted_.begin(*document_);
     problems_ = document_->problems(run_->registry(), run_->environment());
     if (killed.reference) run_beside(std::move(*killed.reference), killed.cycle);
     changed_ = std::move(killed.changed);

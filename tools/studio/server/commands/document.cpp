@@ -72,7 +72,6 @@ json open_new_system(Session& s, const Request& r) {
     input.world = r.text("world"), input.world_text.clear();
     s.open_document(input);
     s.document_ = made;
-    s.scripted_.begin(made);
     s.tell_document();
     return json::object();
 }
@@ -87,11 +86,7 @@ json save_document(Session& s, const Request& r) {
     if (backup_of(to))
         throw InputError(fmt::format("'{}' is a backup and stays as it is", to),
                          "save it under the name of the system, or under another one");
-    ScriptedSystem scripted = s.scripted_;
-    const auto forms = scripted.save(s.edited_file(before), document, to, s.run().registry());
     document.save(file, s.run().registry(), r.flag("overwrite"));
-    scripted.note_saved(document);
-    s.scripted_ = std::move(scripted);
     // The file now has a text that does not run.
     if (!s.current_ && s.input_.text.empty()) s.input_.text = s.begun_.text;
     s.input_.system = document.path();
@@ -100,7 +95,8 @@ json save_document(Session& s, const Request& r) {
     if (s.current_) s.built_ = document.system();
     note_recent(document.path());
     if (s.kept_ && document.path() != before) s.keep_anew(), s.saved_version_.reset();
-    s.tell_action("save", (to == before ? "save " : "save as ") + fs::path(to).filename().string(), forms);
+    s.tell_action("save", (to == before ? "save " : "save as ") + fs::path(to).filename().string(),
+                  of_save(s.edited_file(before), to));
     s.tell(s.system_message()), s.tell_document();
     return {{"file", document.path()}};
 }
@@ -149,7 +145,6 @@ json import_process_file(Session& s, const Request& r) {
     const std::string title = "import " + fs::path(path).filename().string();
     if (link) refuse_taken_ids(document.system(), file, path);
     std::string made;
-    const std::string before = document.text();
     document.edit(
         [&](model::System& system) {
             made = link ? add_link(system, file, path, document.path())
@@ -161,8 +156,9 @@ json import_process_file(Session& s, const Request& r) {
             made = p.id;
             break;
         }
-    const json operation = {{"do", "import"}, {"file", path}};
-    json out = follow_edit(s, title, before, link ? json::array() : json::array({operation}));
+    const json operations = {{{"do", "import"}, {"file", path}}};
+    json out =
+        follow_edit(s, title, link ? Equivalent() : of_edit(s.edited_file(document.path()), operations));
     out["id"] = made;
     return out;
 }

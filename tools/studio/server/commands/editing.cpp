@@ -164,13 +164,23 @@ bool joins_document(const Session& s) {
 
 /// Follows a change of the document: a step, or one that joined the step before.
 json follow_change(Session& s, bool step, const std::string& title, const std::string& text_before,
-                   const json& operations = json::array()) {
-    if (step) return follow_edit(s, title, operations.empty() ? "" : text_before, operations);
+                   const Equivalent& script = {}) {
+    if (step) return follow_edit(s, title, script);
     if (s.document_->text() != text_before) {
-        s.follow_document(title, operations.empty() ? "" : text_before, operations);
+        s.follow_document(title, script);
         s.tell_document();
     }
     return {{"generation", s.generation_}};
+}
+
+/// The script of operations that made these ids; empty for parameters, which have that of `set`.
+Equivalent script_edit(const Session& s, json operations, const json& ids) {
+    const auto is_parameter = [](const json& o) { return o.value("do", "") == "parameter"; };
+    if (s.current_ && std::ranges::all_of(operations, is_parameter)) return {};
+    for (std::size_t i = 0; i < operations.size(); ++i)
+        if (ids[i].is_string() && operations[i].value("do", "").starts_with("add_"))
+            operations[i]["id"] = ids[i];
+    return of_edit(s.edited_file(s.document_->path()), operations);
 }
 
 json edit_document(Session& s, const Request& r) {
@@ -190,10 +200,7 @@ json edit_document(Session& s, const Request& r) {
                 ids.push_back(carry_out(o, system, s.run().registry(), document.path()));
         },
         title, joins_document(s) ? r.text("merge") : "");
-    json with_ids = operations;
-    for (std::size_t i = 0; i < with_ids.size(); ++i)
-        if (ids[i].is_string() && with_ids[i].value("do", "").starts_with("add_")) with_ids[i]["id"] = ids[i];
-    json out = follow_change(s, step, title, before, with_ids);
+    json out = follow_change(s, step, title, before, script_edit(s, operations, ids));
     out["ids"] = std::move(ids);
     return out;
 }
@@ -276,10 +283,9 @@ json preview_connection(Session& s, const Request& r) {
 
 }  // namespace
 
-json follow_edit(Session& s, const std::string& title, const std::string& text_before,
-                 const json& operations) {
+json follow_edit(Session& s, const std::string& title, const Equivalent& script) {
     s.add_undo({nullptr, nullptr, title, true});
-    s.follow_document(title, text_before, operations);
+    s.follow_document(title, script);
     s.tell_document();
     return {{"generation", s.generation_}};
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "tools/api/describe_json.h"
-#include "tools/api/text_parts.h"
 #include "tools/studio/server/commands.h"
 #include "tools/studio/server/commands/shared.h"
 
@@ -72,11 +71,8 @@ json back_or_forth(Session& s, Steps& from, Steps& to, bool back) {
             const bool runs = command.contains("run");
             const auto ended = s.lost_by_rebuild();
             if (runs) run_in_world(s, command.at("run"));
-            const auto replaced =
-                json::array({editing::replace_operation(world_text(s).text, command.at("text"))});
             set_world_text(s, command.at("text"));
-            broadcast_world_edit(s, title, of_world_edit(s.edited_file(world_text(s).path), replaced), runs,
-                                 ended);
+            broadcast_world_edit(s, title, {}, runs, ended);
         } else {
             s.act(command, std::nullopt, described_action(s, command, title));
             if (entry.document) s.note_parameters(command.at("assignments").get<Assignments>());

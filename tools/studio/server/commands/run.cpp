@@ -122,17 +122,8 @@ json quit_program(Session& s, const Request&) {
 
 }  // namespace
 
-Equivalent begun_again(Session& s, Equivalent (*form)(const Opened&), const std::string& world) {
-    // What the file does not have yet, such as parameters that were set in the run, gets into it before.
-    const auto edit = s.scripted_.edit(s.edited_file(s.document_->path()), {}, json::array(), *s.document_,
-                                       s.run().registry());
-    const bool edited = s.document_->dirty();
-    Equivalent out = form({s.input_.system, world, s.input_.seed, edited});
-    if (!s.current_ || (edited && !s.scripted_.follows())) out.python.clear();
-    const auto joined = [](const std::string& a, const std::string& b) {
-        return a.empty() || b.empty() ? a + b : a + '\n' + b;
-    };
-    return {joined(edit.shell, out.shell), joined(edit.python, out.python)};
+Equivalent begun_again(const Session& s, Equivalent (*form)(const Opened&), const std::string& world) {
+    return form({s.input_.system, world, s.input_.seed, s.document_->dirty()});
 }
 
 std::vector<Command> run_commands() {

@@ -22,7 +22,7 @@ void check_free(const Session& session, const std::string& path, bool overwrite)
 // ---- the run ----
 std::size_t find_robot(Session& session, const Request& request);
 /// The scripts of a run of the document that begins again in a world.
-Equivalent begun_again(Session& session, Equivalent (*form)(const Opened&), const std::string& world);
+Equivalent begun_again(const Session& session, Equivalent (*form)(const Opened&), const std::string& world);
 /// Begins a recording that was asked to begin with the run.
 void begin_waiting_sampler(Session& session);
 
@@ -37,9 +37,8 @@ json described_action(Session& session, const json& action, const std::string& t
                       const std::string& item = {});
 
 // ---- the document ----
-/// Follows a step of the document.
-json follow_edit(Session& session, const std::string& title, const std::string& text_before = {},
-                 const json& operations = json::array());
+/// Follows a step of the document. `script` is empty for an edit of the text.
+json follow_edit(Session& session, const std::string& title, const Equivalent& script = {});
 
 // ---- the text of the world ----
 Session::WorldText& world_text(Session& session);
