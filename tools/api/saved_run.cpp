@@ -28,7 +28,7 @@ enum class Saved : std::uint8_t { recording, manipulation, measures };
 void keep(Archive& archive, std::string& source, std::uint64_t& every) { archive(source, every); }
 
 void keep(Archive& archive, model::Measure& m) {
-    static_assert(member_count<model::Measure>() == 6);  // the location is of no use in another process
+    static_assert(member_count<model::Measure>() == 6);  // another process cannot use the location
     archive(m.name, m.kind, m.what.text, m.of.text, m.last);
 }
 

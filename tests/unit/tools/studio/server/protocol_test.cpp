@@ -63,7 +63,7 @@ std::string page_module() {
                 word.clear();
     }
     return fmt::format(
-        "// The commands of the server. Made by tests/unit/studio/protocol_test.cpp from "
+        "// The commands of the server. Made by tests/unit/tools/studio/server/protocol_test.cpp from "
         "tools/studio/server/commands.\n"
         "import type {{ {} }} from './messages';\n\n{}}}\n",
         fmt::join(names, ", "), body);

@@ -1,4 +1,4 @@
-// The commands of the server. Made by tests/unit/studio/protocol_test.cpp from tools/studio/server/commands.
+// The commands of the server. Made by tests/unit/tools/studio/server/protocol_test.cpp from tools/studio/server/commands.
 import type { DocumentMessage, Driven, EditItem, FilesResult, ItemParameters, LayoutContent, Operation, PanelRow, PreviewResult, Problem, SynapseTable, Trial, TypesResult, Vocabulary, WorldDocument, WorldKind } from './messages';
 
 export interface Commands {
