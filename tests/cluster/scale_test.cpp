@@ -12,7 +12,7 @@
 #include "core/run/experiment/parts.h"
 #include "core/run/experiment/tables.h"
 #include "tests/support/catch.h"
-#include "tools/api/results.h"
+#include "tools/api/experiment/results.h"
 
 using namespace forage;
 

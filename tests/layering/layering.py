@@ -29,13 +29,21 @@ ALLOWED = {
     # Pictures, and what other projects see.
     'tools/plot': {'core/base', 'core/model', 'core/connectivity', 'core/engine', 'core/observe', 'core/run',
                    'bug_interface'},
-    'tools/api': {'core/base', 'core/types', 'core/model', 'core/connectivity', 'core/engine', 'core/xml', 'core/plugin', 'core/observe',
-                  'core/run', 'neurons', 'synapses', 'modules', 'bug_interface', 'modules/devices', 'tools/plot'},
-    'tools/cluster': {'core/base', 'core/run', 'tools/api'},
+    'tools/api/open': {'core/base', 'core/types', 'core/model', 'core/xml', 'core/plugin', 'core/observe', 'core/run', 'neurons', 'synapses', 'modules',
+                       'bug_interface', 'modules/devices', 'tools/plot'},
+    'tools/api/describe': {'core/connectivity', 'core/model', 'core/engine', 'core/xml', 'core/run', 'bug_interface', 'tools/plot'},
+    'tools/api/edit': {'core/base', 'core/types', 'core/model', 'core/xml', 'core/run', 'bug_interface', 'tools/api/open'},
+    'tools/api/experiment': {'core/base', 'core/model', 'core/xml', 'core/observe', 'core/run', 'tools/plot', 'tools/api/open'},
+    'tools/api/agents': {'core/base', 'core/model', 'core/engine', 'core/observe', 'core/run', 'bug_interface', 'tools/plot', 'tools/api/open'},
+    'tools/api': {'core/base', 'core/types', 'core/model', 'core/xml', 'core/plugin', 'core/run', 'tools/plot', 'tools/api/open', 'tools/api/describe',
+                  'tools/api/experiment'},
+    'tools/cluster': {'core/base', 'core/run', 'tools/api/experiment'},
 }
-ALLOWED['tools'] = set(ALLOWED) - {'core/connectivity', 'core/plugin', 'core/types', 'modules/devices', 'modules', 'neurons', 'synapses'}
-ALLOWED['tools/python'] = {'core/base', 'core/observe', 'core/run', 'tools/api'}
-ALLOWED['tools/studio/server'] = {'core/base', 'core/types', 'core/model', 'core/xml', 'core/observe', 'core/run', 'bug_interface', 'tools/plot', 'tools/api'}
+ALLOWED['tools'] = {'core/base', 'core/model', 'core/engine', 'core/xml', 'core/observe', 'core/run', 'bug_interface', 'tools/plot', 'tools/cluster',
+                    'tools/api/open', 'tools/api/describe', 'tools/api/edit', 'tools/api/experiment'}
+ALLOWED['tools/python'] = {'core/base', 'core/observe', 'core/run', 'tools/api/open', 'tools/api/experiment', 'tools/api/agents'}
+ALLOWED['tools/studio/server'] = {'core/base', 'core/types', 'core/model', 'core/xml', 'core/observe', 'core/run', 'bug_interface', 'tools/plot',
+                                 'tools/api/open', 'tools/api/describe', 'tools/api/edit'}
 ALLOWED['tools'].add('tools/studio/server')
 ROOMS = set(ALLOWED)
 

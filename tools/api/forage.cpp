@@ -5,11 +5,11 @@
 #include "core/run/experiment/tables.h"
 #include "core/run/path_recorder.h"
 #include "core/run/run_json.h"
-#include "tools/api/experiment.h"
-#include "tools/api/prepare.h"
-#include "tools/api/program_types.h"
-#include "tools/api/results.h"
-#include "tools/api/saved_run.h"
+#include "tools/api/experiment/experiment.h"
+#include "tools/api/experiment/results.h"
+#include "tools/api/open/prepare.h"
+#include "tools/api/open/program_types.h"
+#include "tools/api/open/saved_run.h"
 
 namespace forage {
 namespace {

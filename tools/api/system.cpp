@@ -6,9 +6,9 @@
 #include "core/base/output_files.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
-#include "tools/api/saved_run.h"
-#include "tools/api/sources.h"
-#include "tools/api/system_description.h"
+#include "tools/api/describe/system_description.h"
+#include "tools/api/open/saved_run.h"
+#include "tools/api/open/sources.h"
 #include "tools/plot/structure.h"
 
 namespace forage {

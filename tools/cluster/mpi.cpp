@@ -12,7 +12,7 @@
 #include <mpi.h>
 
 #include "core/run/experiment/tables.h"
-#include "tools/api/experiment.h"
+#include "tools/api/experiment/experiment.h"
 
 namespace forage::cluster {
 namespace {

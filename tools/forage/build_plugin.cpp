@@ -1,4 +1,4 @@
-#include "tools/api/build_plugin.h"
+#include "tools/api/open/build_plugin.h"
 
 #include <filesystem>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/api/prepare.h"
+#include "tools/api/open/prepare.h"
 
 namespace forage::tool {
 

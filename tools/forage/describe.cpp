@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/api/system_description.h"
+#include "tools/api/describe/system_description.h"
 #include "tools/forage/commands.h"
 
 namespace forage::tool {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <forage/system.h>
 
-#include "tools/api/json_text.h"
-#include "tools/api/sources.h"
+#include "tools/api/edit/json_text.h"
+#include "tools/api/open/sources.h"
 #include "tools/forage/commands.h"
 
 namespace forage::tool {

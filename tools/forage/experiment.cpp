@@ -1,4 +1,4 @@
-#include "tools/api/experiment.h"
+#include "tools/api/experiment/experiment.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include "core/base/named_file.h"
-#include "tools/api/results.h"
+#include "tools/api/experiment/results.h"
 #include "tools/forage/commands.h"
 
 namespace forage::tool {

@@ -1,5 +1,5 @@
 // Lists and runs the exercises of the tutorial.
-#include "tools/api/tutorial.h"
+#include "tools/api/experiment/tutorial.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/model/lookup.h"
-#include "tools/api/results.h"
+#include "tools/api/experiment/results.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/installation.h"
 

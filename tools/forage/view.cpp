@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/api/results.h"
+#include "tools/api/experiment/results.h"
 #include "tools/forage/commands.h"
 
 namespace forage::tool {

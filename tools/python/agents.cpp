@@ -1,5 +1,5 @@
 // Runs for learning agents. forage/gym.py gives them the interfaces of Gymnasium and PettingZoo.
-#include "tools/api/agents.h"
+#include "tools/api/agents/agents.h"
 
 #include <algorithm>
 #include <array>
@@ -9,7 +9,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "tools/api/agent_pool.h"
+#include "tools/api/agents/agent_pool.h"
 #include "tools/python/run.h"
 #include "tools/python/values.h"
 

@@ -1,6 +1,6 @@
 // Experiments and sweeps. forage/_experiment.py makes tables of what is here.
 
-#include "tools/api/experiment.h"
+#include "tools/api/experiment/experiment.h"
 
 #include <algorithm>
 #include <atomic>

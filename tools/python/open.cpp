@@ -9,7 +9,7 @@
 
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
-#include "tools/api/moves.h"
+#include "tools/api/open/moves.h"
 #include "tools/python/group.h"
 #include "tools/python/picture.h"
 #include "tools/python/probe.h"

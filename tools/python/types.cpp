@@ -10,8 +10,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "tools/api/build_plugin.h"
-#include "tools/api/program_types.h"
+#include "tools/api/open/build_plugin.h"
+#include "tools/api/open/program_types.h"
 #include "tools/python/held.h"
 #include "tools/python/values.h"
 

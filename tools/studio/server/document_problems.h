@@ -7,7 +7,7 @@
 
 #include "core/model/system.h"
 #include "core/types/registry.h"
-#include "tools/api/document.h"
+#include "tools/api/edit/document.h"
 
 namespace forage::studio {
 

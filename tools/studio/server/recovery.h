@@ -9,7 +9,7 @@
 #include "core/base/archive.h"
 #include "core/base/output_files.h"
 #include "core/run/run_spec.h"
-#include "tools/api/sources.h"
+#include "tools/api/open/sources.h"
 
 namespace forage::studio {
 

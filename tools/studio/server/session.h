@@ -16,7 +16,7 @@
 #include "core/observe/recorder.h"
 #include "core/run/run.h"
 #include "core/run/run_spec.h"
-#include "tools/api/document.h"
+#include "tools/api/edit/document.h"
 #include "tools/studio/server/client.h"
 #include "tools/studio/server/equivalents.h"
 #include "tools/studio/server/history.h"

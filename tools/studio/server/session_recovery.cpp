@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/run/checkpoint_file.h"
-#include "tools/api/sources.h"
+#include "tools/api/open/sources.h"
 #include "tools/studio/server/recent.h"
 #include "tools/studio/server/session.h"
 

@@ -5,9 +5,9 @@
 #include "core/model/lookup.h"
 #include "core/model/operations.h"
 #include "core/xml/writer.h"
-#include "tools/api/describe_json.h"
-#include "tools/api/forms.h"
-#include "tools/api/operations.h"
+#include "tools/api/describe/describe_json.h"
+#include "tools/api/edit/forms.h"
+#include "tools/api/edit/operations.h"
 #include "tools/studio/server/commands/shared.h"
 #include "tools/studio/server/problems.h"
 

@@ -6,7 +6,7 @@
 #include "bug_interface/simulation/world.h"
 #include "core/base/output_files.h"
 #include "core/observe/pattern_file.h"
-#include "tools/api/moves.h"
+#include "tools/api/open/moves.h"
 #include "tools/studio/server/commands/shared.h"
 
 namespace forage::studio {

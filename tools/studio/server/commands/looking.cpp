@@ -5,7 +5,7 @@
 
 #include "bug_interface/simulation/world.h"
 #include "core/model/lookup.h"
-#include "tools/api/moves.h"
+#include "tools/api/open/moves.h"
 #include "tools/studio/server/commands/shared.h"
 
 namespace forage::studio {

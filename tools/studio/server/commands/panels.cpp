@@ -5,7 +5,7 @@
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
 #include "core/xml/panel.h"
-#include "tools/api/describe_json.h"
+#include "tools/api/describe/describe_json.h"
 #include "tools/studio/server/commands/shared.h"
 
 namespace forage::studio {

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "tools/api/describe_json.h"
+#include "tools/api/describe/describe_json.h"
 #include "tools/studio/server/commands.h"
 #include "tools/studio/server/commands/shared.h"
 

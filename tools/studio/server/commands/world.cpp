@@ -8,7 +8,7 @@
 #include "core/base/number.h"
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
-#include "tools/api/world_operations.h"
+#include "tools/api/edit/world_operations.h"
 #include "tools/studio/server/commands/shared.h"
 
 namespace forage::studio {

@@ -1,0 +1,51 @@
+#include "tools/api/agents/agent_pool.h"
+
+#include <algorithm>
+
+#include "core/base/cores.h"
+#include "core/engine/parallel/thread_pool.h"
+
+namespace forage {
+
+AgentPool::AgentPool(const std::shared_ptr<const AgentTask>& task, std::size_t runs, int threads) {
+    if (runs == 0) throw InputError("there is no run", "1 run is the least");
+    for (std::size_t i = 0; i < runs; ++i) runs_.emplace_back(task, task->options().input.seed + i);
+    const auto usable = static_cast<std::size_t>(threads > 0 ? threads : cores());
+    threads_ = std::make_unique<engine::ThreadPool>(static_cast<int>(std::min(usable, runs)));
+}
+
+AgentPool::~AgentPool() = default;
+
+int AgentPool::threads() const { return threads_->threads(); }
+
+void AgentPool::reset(std::span<const std::uint64_t> seeds, std::span<float> observations) {
+    const auto width = runs_.front().observation(0).size();
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+        seeds.empty() ? runs_[i].reset() : runs_[i].reset(seeds[i]);
+        std::ranges::copy(runs_[i].observation(0),
+                          observations.begin() + static_cast<std::ptrdiff_t>(i * width));
+    }
+}
+
+void AgentPool::step(std::span<const double> actions, const Rows& rows) {
+    const auto width = runs_.front().observation(0).size(), numbers = runs_.front().action_size(0);
+    auto work = [&](int item, int) {
+        const auto i = static_cast<std::size_t>(item);
+        AgentRun& run = runs_[i];
+        if (run.ended()) {
+            run.reset();
+        } else {
+            run.act(0, actions.subspan(i * numbers, numbers));
+            run.step();
+        }
+        std::ranges::copy(run.observation(0),
+                          rows.observations.begin() + static_cast<std::ptrdiff_t>(i * width));
+        const auto& outcome = run.outcome(0);
+        rows.rewards[i] = outcome.reward;
+        rows.terminated[i] = outcome.terminated, rows.truncated[i] = outcome.truncated;
+        rows.reached_target[i] = outcome.reached_target;
+    };
+    threads_->run(static_cast<int>(runs_.size()), work);
+}
+
+}  // namespace forage

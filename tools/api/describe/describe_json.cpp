@@ -1,0 +1,327 @@
+#include "tools/api/describe/describe_json.h"
+
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/model/edit.h"
+#include "core/model/lookup.h"
+#include "tools/api/describe/system_description.h"
+#include "tools/plot/world_map.h"
+
+namespace forage {
+namespace {
+
+using nlohmann::json;
+
+json icon_of(const std::optional<model::Icon>& icon) {
+    if (!icon) return nullptr;
+    return {{"x", icon->x}, {"y", icon->y}, {"width", icon->width}, {"height", icon->height}};
+}
+
+/// Columns and rows, from 0, of the cells in the order of their numbers, which go row by row.
+json places_of(const model::Topology& topology) {
+    const auto* sparse = std::get_if<model::SparseTopology>(&topology);
+    if (!sparse) return nullptr;
+    std::set<std::pair<int, int>> rows;  // a place is one cell, even when it is listed several times
+    for (const auto& p : sparse->points)
+        if (p.x >= 1 && p.y >= 1) rows.emplace(p.y, p.x);
+    json out = json::array();
+    for (const auto& [y, x] : rows) out.push_back({x - 1, y - 1});
+    return out;
+}
+
+json states_of(const NeuronType* type) {
+    json out = json::array();
+    if (!type) return out;
+    for (const auto& s : type->states)
+        out.push_back({{"name", s.name}, {"label", s.label}, {"output", s.output}});
+    constexpr std::pair<const char*, const char*> inputs[] = {
+        {"excIn", "Excitatory input"}, {"inhIn", "Inhibitory input"}, {"modIn", "Modulatory input"}};
+    for (const auto& [name, label] : inputs)
+        out.push_back({{"name", name}, {"label", label}, {"output", false}});
+    return out;
+}
+
+json module_of(const model::Process& p) {
+    if (!p.module) return nullptr;
+    json out = {{"type", p.module->type}, {"inputs", json::array()}, {"outputs", json::array()}};
+    for (const auto& r : p.module->inputs) out["inputs"].push_back({{"name", r.name}, {"group", r.target}});
+    for (const auto& r : p.module->outputs) out["outputs"].push_back({{"name", r.name}, {"group", r.target}});
+    return out;
+}
+
+json line_of(const std::optional<model::Line>& line) {
+    if (!line) return nullptr;
+    const auto places = [](const std::vector<model::Point>& all) {
+        json out = json::array();
+        for (const auto& v : all) out.push_back({v.x, v.y});
+        return out;
+    };
+    return {{"source_anchor", line->source_anchor},
+            {"target_anchor", line->target_anchor},
+            {"vertices", places(line->vertices)},
+            {"source_vertices", places(line->source_vertices)},
+            {"target_vertices", places(line->target_vertices)}};
+}
+
+json comments_of(const std::vector<model::CanvasComment>& comments) {
+    json out = json::array();
+    for (const auto& c : comments)
+        out.push_back({{"id", c.id}, {"text", c.text}, {"color", c.color}, {"icon", icon_of(c.box)}});
+    return out;
+}
+
+json phantoms_of(const std::vector<model::Phantom>& phantoms) {
+    json out = json::array();
+    for (const auto& p : phantoms) out.push_back({{"group", p.group}, {"x", p.x}, {"y", p.y}});
+    return out;
+}
+
+std::string trimmed(const std::string& text) { return std::string(model::trim(text)); }
+
+std::string colour_of(const bug::Colour& c) {
+    const auto part = [&](int i) { return std::lround(std::clamp(c[i], 0.f, 1.f) * 255); };
+    return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
+}
+
+json solid_of(const bug::Solid& s, const bug::Colour& colour) {
+    constexpr const char* kinds[] = {"plane", "box", "cylinder", "sphere"};
+    const auto at = s.pose.translation();
+    return {{"kind", kinds[static_cast<int>(s.kind)]},
+            {"x", at.x()},
+            {"y", at.y()},
+            {"z", at.z()},
+            {"yaw", bug::yaw_of(s.pose)},
+            {"size", {s.size.x(), s.size.y(), s.size.z()}},
+            {"color", colour_of(colour)}};
+}
+
+json pose_of(const Pose2& p) { return {{"x", p.x}, {"y", p.y}, {"yaw", p.yaw}}; }
+
+json json_of(const ParameterValue& value) {
+    return std::visit([](const auto& v) { return json(v); }, value);
+}
+
+const std::vector<Parameter>* parameters_of(const Run& run, const model::Assignment& item, std::string& path,
+                                            std::string& type) {
+    const auto& system = run.system();
+    for (const auto& p : system.processes) {
+        if (item.owner == model::Assignment::Owner::process && p.id == item.id) {
+            path = trimmed(p.name);
+            if (!p.module) return nullptr;
+            const auto* t = run.registry().module(type = p.module->type);
+            return t ? &t->parameters : nullptr;
+        }
+        for (const auto& g : p.groups)
+            if (item.owner == model::Assignment::Owner::group && g.id == item.id) {
+                path = model::path(system, p, g);
+                const auto* t = run.registry().neuron(type = g.neuron.type);
+                return t ? &t->parameters : nullptr;
+            }
+    }
+    for (const auto& c : system.connections)
+        if (item.owner == model::Assignment::Owner::connection && c.id == item.id) {
+            path = trimmed(c.name);
+            if (!c.synapse) return nullptr;
+            const auto* t = run.registry().synapse(type = c.synapse->type);
+            return t ? &t->parameters : nullptr;
+        }
+    return nullptr;
+}
+
+/// A parameter of a type, without a value.
+json declared(const Parameter& p) {
+    constexpr const char* kinds[] = {"boolean", "real", "integer", "text"};
+    json out = {{"name", p.name},
+                {"label", p.label},
+                {"doc", p.doc},
+                {"unit", p.unit},
+                {"kind", kinds[static_cast<int>(p.kind)]},
+                {"default", json_of(p.default_value)},
+                {"low", nullptr},
+                {"high", nullptr},
+                {"at_start", p.at_start},
+                {"path", p.is_path}};
+    if (p.range) out["low"] = p.range->low, out["high"] = p.range->high;
+    return out;
+}
+
+json parameter_of(Run& run, const model::Assignment& item, const Parameter& p, const std::string& owner) {
+    model::Assignment which = item;
+    which.parameter = &p;
+    const ParameterValue loaded = model::value_of(run.system(), which);
+    ParameterValue now = loaded;
+    try {
+        now = run.simulation().parameter(which);
+    } catch (const engine::RunError&) {  // a module that is disabled has the values of its file
+    }
+    json out = declared(p);
+    out["value"] = json_of(now), out["loaded"] = json_of(loaded), out["assignment"] = owner + "." + p.name;
+    return out;
+}
+
+}  // namespace
+
+json describe_system(const Run& run) { return describe_system(run.system(), run.registry(), &run); }
+
+// What papers and terminals read of a system (system_description.h) is in each object; the rest is for
+// showing it: places, colours, states, and ids instead of names.
+json describe_system(const model::System& system, const Registry& registry, const Run* run) {
+    const SystemDescription said = describe(system, run ? &run->simulation() : nullptr);
+    json processes = json::array(), links = json::array();
+    for (std::size_t i = 0; i < system.processes.size(); ++i) {
+        const auto& p = system.processes[i];
+        const auto& process = said.processes[i];
+        json inside = json::array();
+        for (std::size_t k = 0; k < p.groups.size(); ++k) {
+            const auto& g = p.groups[k];
+            const auto& group = process.groups[k];
+            inside.push_back({{"id", group.id},
+                              {"name", group.name},
+                              {"path", group.path},
+                              {"color", g.color},
+                              {"note", group.notes},
+                              {"icon", icon_of(g.icon)},
+                              {"type", group.neuron.type},
+                              {"width", group.width},
+                              {"height", group.height},
+                              {"cells", group.cells},
+                              {"places", places_of(g.topology)},
+                              {"states", states_of(registry.neuron(g.neuron.type))}});
+        }
+        processes.push_back({{"id", process.id},
+                             {"name", process.name},
+                             {"color", p.color},
+                             {"note", process.notes},
+                             {"icon", icon_of(p.icon)},
+                             {"linked", p.linked()},
+                             {"enabled", process.module_enabled},
+                             {"module", module_of(p)},
+                             {"comments", comments_of(p.canvas_comments)},
+                             {"phantoms", phantoms_of(p.phantoms)},
+                             {"groups", std::move(inside)}});
+    }
+    for (std::size_t i = 0; i < system.connections.size(); ++i) {
+        const auto& c = system.connections[i];
+        const auto& connection = said.connections[i];
+        const auto* type = registry.synapse(connection.synapse.type);
+        json states = json::array();
+        // Synapses with the same weight in all of them keep nothing that could be read.
+        for (const auto& s : type && !type->has_gain ? type->states : std::vector<SynapseStateInfo>())
+            states.push_back({{"name", s.name}, {"label", s.label}});
+        links.push_back({{"id", connection.id},
+                         {"name", connection.name},
+                         {"source", c.source},
+                         {"target", c.target},
+                         {"kind", connection.kind},
+                         {"type", connection.synapse.type},
+                         {"note", connection.notes},
+                         {"synapses", connection.synapses},
+                         {"form", connection.form},
+                         {"states", std::move(states)},
+                         {"line", line_of(c.line)}});
+    }
+    const double rate = system.cycles_per_second > 0 ? system.cycles_per_second : 25;
+    return {{"type", "system"},
+            {"name", said.name},
+            {"note", said.notes},
+            {"cycles_per_second", said.cycles_per_second},
+            {"seconds_per_cycle", run ? run->seconds_per_cycle() : 1 / rate},
+            {"comments", comments_of(system.canvas_comments)},
+            {"processes", std::move(processes)},
+            {"connections", std::move(links)}};
+}
+
+json describe_world(const bug::World& world) {
+    json robots = json::array(), objects = json::array(), solids = json::array(), targets = json::array(),
+         starts = json::array();
+    for (std::size_t i = 0; i < world.bugs(); ++i) {
+        const auto& robot = world.robot(i);
+        json camera = nullptr, scans = json::array();
+        if (const auto& c = robot.sensors.camera_sensor())
+            camera = {{"width", c->width}, {"height", c->height}};
+        for (const auto& s : robot.sensors.range_sensors())
+            if (s.name == "laser" || s.name == "laser_target")
+                scans.push_back(s.name == "laser" ? "proximity" : "light");
+        robots.push_back({{"name", robot.name},
+                          {"radius", robot.body.radius},
+                          {"gripper", world.has_gripper(i)},
+                          {"trials", world.has_trials(i)},
+                          {"camera", std::move(camera)},
+                          {"scans", std::move(scans)}});
+    }
+    for (std::size_t i = 0; i < world.movable_objects(); ++i) {
+        const auto& object = world.movable_object(i);
+        json parts = json::array();
+        for (const auto& v : object.visuals)
+            parts.push_back(solid_of(v.visual.solid, v.visual.material.diffuse));
+        objects.push_back(
+            {{"name", object.name}, {"resource", object.resource}, {"solids", std::move(parts)}});
+    }
+    for (const auto& d : bug::drawing_of(world.description())) solids.push_back(solid_of(d.solid, d.colour));
+    for (const auto& t : world.targets()) targets.push_back({t.x(), t.y()});
+    for (const auto& s : world.start_poses()) starts.push_back(pose_of(s));
+    const auto view = plot::WorldMap(world, {}, 1000, 0, 0).view();
+    json bounds = nullptr;
+    if (const auto plan = world.reset_plan())
+        bounds = {plan->bounds.min().x(), plan->bounds.min().y(), plan->bounds.max().x(),
+                  plan->bounds.max().y()};
+    return {{"type", "world"},
+            {"file", world.description().path},
+            {"view", {view.min().x(), view.min().y(), view.max().x(), view.max().y()}},
+            {"robots", std::move(robots)},
+            {"objects", std::move(objects)},
+            {"solids", std::move(solids)},
+            {"targets", std::move(targets)},
+            {"starts", std::move(starts)},
+            {"bounds", std::move(bounds)},
+            {"trials", world.has_trials(0)}};
+}
+
+json describe_parameters(Run& run, std::string_view item) {
+    Diagnostics diagnostics;
+    auto found = model::find_item(run.system(), item, "parameters", diagnostics);
+    throw_errors(diagnostics);
+    std::string path, type;
+    const auto* parameters = parameters_of(run, *found, path, type);
+    constexpr const char* owners[] = {"group", "process", "connection"};
+    json list = json::array();
+    if (parameters)
+        for (const Parameter& p : *parameters) {
+            // A connection whose name is not unique is named by its id.
+            Diagnostics ignored;
+            const bool unique = model::find_item(run.system(), path, "", ignored).has_value();
+            list.push_back(parameter_of(run, *found, p, unique ? path : found->id));
+        }
+    return {{"item", path},
+            {"id", found->id},
+            {"kind", owners[static_cast<int>(found->owner)]},
+            {"type", type},
+            {"parameters", std::move(list)}};
+}
+
+json describe_settings(const model::TypeUse& use, const model::TypeUse* saved,
+                       const std::vector<Parameter>& parameters, const std::string& owner) {
+    const auto value = [](const model::TypeUse& from, const Parameter& p) {
+        const auto it = std::ranges::find(from.settings, p.name, &model::Setting::name);
+        if (it == from.settings.end()) return json_of(p.default_value);
+        const auto parsed = parse_parameter(p.kind, it->value);
+        return parsed ? json_of(*parsed) : json(it->value);
+    };
+    json out = json::array();
+    for (const Parameter& p : parameters) {
+        json row = declared(p);
+        row["value"] = value(use, p);
+        row["loaded"] = saved && saved->type == use.type ? value(*saved, p) : row["value"];
+        row["assignment"] = owner + "." + p.name;
+        out.push_back(std::move(row));
+    }
+    return out;
+}
+
+}  // namespace forage

@@ -1,0 +1,67 @@
+#include "tools/api/edit/json_text.h"
+
+#include <algorithm>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "core/run/input_error.h"
+
+namespace forage {
+
+namespace {
+
+using nlohmann::json;
+
+constexpr int deepest = 100;
+
+bool is_within(const json& value, int levels) {
+    if (!value.is_structured()) return true;
+    if (levels == 0) return false;
+    for (const auto& each : value)
+        if (!is_within(each, levels - 1)) return false;
+    return true;
+}
+
+/// The mistake at a byte of a text, from 1.
+InputError mistake(const std::string& text, const std::string& name, std::size_t byte) {
+    const std::string_view before = std::string_view(text).substr(0, std::max<std::size_t>(byte, 1) - 1);
+    const auto line_start = before.rfind('\n') + 1;  // 0 without one
+    Location where;
+    if (!name.empty()) where.file = std::make_shared<SourceFile>(SourceFile{name, text});
+    where.line = static_cast<int>(std::ranges::count(before, '\n')) + 1;
+    where.column = static_cast<int>(before.size() - line_start) + 1;
+    Diagnostics out;
+    out.error(where, "this is not JSON: something else must stand here or before it",
+              "names and texts stand in double quotes");
+    return InputError(std::move(out));
+}
+
+}  // namespace
+
+void check_depth(const json& value) {
+    if (!is_within(value, deepest)) throw InputError("too many lists and objects within each other");
+}
+
+json parse_json(const std::string& text, const std::string& name) {
+    try {
+        json out = json::parse(text);
+        check_depth(out);
+        return out;
+    } catch (const json::parse_error& e) {
+        throw mistake(text, name, e.byte);
+    } catch (const json::out_of_range&) {
+        throw InputError("a number is too large");
+    }
+}
+
+void check_json(const std::string& text, const std::string& name) { parse_json(text, name); }
+
+std::vector<std::string> elements_of(const std::string& list) {
+    std::vector<std::string> out;
+    for (const auto& each : json::parse(list))
+        if (!each.is_null()) out.push_back(each.is_string() ? each.get<std::string>() : each.dump());
+    return out;
+}
+
+}  // namespace forage

@@ -1,0 +1,104 @@
+#include "tools/api/open/prepare.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "bug_interface/versions.h"
+#include "core/base/cores.h"
+#include "core/base/separated.h"
+#include "core/run/checkpoint_file.h"
+#include "tools/api/open/run_observers.h"
+#include "tools/api/open/tables.h"
+
+namespace forage {
+namespace {
+
+constexpr double default_seconds = 60;  ///< length of a run, s of the world
+
+/// Creates and locks the directory for results.
+bool open_directory(const std::string& directory, DirectoryHold& hold, Diagnostics& diagnostics) {
+    const char* hint = "choose another directory for the results with -o";
+    try {
+        make_directory(directory);
+        hint = held_hint;
+        hold = DirectoryHold(directory);
+        return true;
+    } catch (const std::exception& e) {
+        diagnostics.error({}, e.what(), hint);
+        return false;
+    }
+}
+
+}  // namespace
+
+std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given, Diagnostics& diagnostics) {
+    RunSpec spec = given;
+    auto& length = spec.length;
+    if (!length.cycles && !length.trials && !length.seconds) length.seconds = default_seconds;
+    auto loaded = assemble(sources, spec.input, diagnostics);
+    if (!loaded) return std::nullopt;
+    if (sources.replay) check_replay(*sources.replay, loaded->system, diagnostics);
+    bug::World* world = loaded->world.get();
+    auto run = Run::make(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
+                         {.seed = spec.input.seed,
+                          .threads = std::min(spec.threads, cores()),
+                          .compute_everything = false,
+                          .check_finite = spec.on_nan != OnNan::ignore,
+                          .directory = spec.directory},
+                         diagnostics);
+    if (!run) return std::nullopt;
+    auto stop = StopCondition::make(length, *run, diagnostics);
+    stop.declare(run->demand());
+    if (spec.checkpoint_every && spec.directory.empty())
+        diagnostics.error({}, "--checkpoint-every needs a directory to write to",
+                          "leave out -o '' or name one");
+    if (spec.checkpoint_every || spec.digest)
+        check_checkpoints(run->layout(), spec.checkpoint_every ? "--checkpoint-every" : "--hash",
+                          diagnostics);
+    if (spec.digest) run->demand().read_everything();
+    try {
+        PreparedRun prepared{.spec = std::move(spec),
+                             .run = std::move(*run),
+                             .stop = std::move(stop),
+                             .plugins = std::move(loaded->plugins),
+                             .libraries = bug::library_versions()};
+        add_observers(prepared, world, diagnostics);
+        if (!prepared.run.start(diagnostics)) return std::nullopt;
+        const std::string& directory = prepared.spec.directory;
+        if (!directory.empty() && !open_directory(directory, prepared.hold, diagnostics)) return std::nullopt;
+        add_checkpoints(prepared, sources);
+        return prepared;
+    } catch (const std::exception& e) {
+        diagnostics.error({}, e.what());
+        return std::nullopt;
+    }
+}
+
+void clear_directory(const RunSpec& spec, Diagnostics& diagnostics) {
+    const std::string& directory = spec.directory;
+    if (has_checkpoint(directory) && !spec.discard_checkpoint)
+        return diagnostics.error(
+            {}, fmt::format("'{}' holds the checkpoint of a run that has not finished", directory),
+            fmt::format("'forage resume {}' continues that run; --discard-checkpoint gives it up, and -o "
+                        "names another "
+                        "directory",
+                        directory));
+    remove_checkpoints(directory);
+    const auto removed = remove_unfinished(directory);
+    if (!removed.empty())
+        diagnostics.warning(
+            {}, fmt::format("removed from '{}', as a run was killed before it finished them: {}", directory,
+                            separated(removed, ", ")));
+}
+
+void begin(PreparedRun& p) {
+    if (p.spec.directory.empty()) return;
+    ResultFiles files(p.spec.directory);
+    check_regular_file(files.path("run.json"));
+    for (const auto& o : p.run.observers())
+        for (const auto& name : o->file_names()) check_regular_file(files.path(name));
+    for (const auto& o : p.run.observers()) o->begin_files(files);
+}
+
+}  // namespace forage
