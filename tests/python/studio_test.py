@@ -1,7 +1,6 @@
 """The studio says of each action how to do it in Python: it gives the same run."""
 import difflib
 import os
-import re
 import shlex
 import sys
 
