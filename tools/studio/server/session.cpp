@@ -109,7 +109,7 @@ void Session::open(RunInput input) {
     run_ = std::move(run);
     touches_ = touches;
     rebind();  // at once: what follows may fail, and streams must not read the run before
-    failed_.clear(), running_ = sampled_ = false;
+    failed_.clear(), running_ = sampled_ = false, pause_after_trials_.reset();
     history_.begin(*run_);
     rewound();
 }
@@ -312,6 +312,8 @@ void Session::cycle() {
     ++version_;
     history_.after_cycle(*run_);
     if (reference_) step_reference();
+    if (pause_after_trials_ && run_->environment()->trials(0).size() >= *pause_after_trials_)
+        pause_after_trials_.reset(), running_ = false, status_due_ = true;
     const std::uint64_t done = run_->cycle() - 1;
     if (done % timed_cycle == 0) {
         rows_time_ = 0;

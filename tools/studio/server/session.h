@@ -240,6 +240,7 @@ class Session {
     double saved_at_ = -1e9;
 
     bool running_ = false, status_due_ = true;
+    std::optional<std::size_t> pause_after_trials_;  ///< the number of finished trials of the first robot
     std::string mode_ = "real", failed_;
     double value_ = 1;
     std::uint32_t epoch_ = 1;

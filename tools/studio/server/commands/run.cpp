@@ -16,12 +16,24 @@ void check_running(const Session& s) {
 json start_run(Session& s, const Request&) {
     check_running(s);
     begin_waiting_sampler(s);
-    s.running_ = s.status_due_ = true;
+    s.running_ = s.status_due_ = true, s.pause_after_trials_.reset();
     s.pace_from_ = s.rate_from_ = -1, s.measured_rate_ = 0;
     return json::object();
 }
 
+json run_trials(Session& s, const Request& r) {
+    if (!s.run().has_trials())
+        throw InputError("the world has no trials", "open a world whose robot has trials");
+    start_run(s, r);
+    const auto trials = r.whole("trials");
+    s.pause_after_trials_ = s.run().environment()->trials(0).size() + trials;
+    s.tell_action("run_trials", fmt::format("run {} trials", trials),
+                  {fmt::format("--trials {}", trials), fmt::format("run.run(trials={})", trials)});
+    return json::object();
+}
+
 json pause_run(Session& s, const Request&) {
+    s.pause_after_trials_.reset();
     s.running_ = false, s.status_due_ = true;
     return json::object();
 }
@@ -129,6 +141,10 @@ Equivalent begun_again(const Session& s, Equivalent (*form)(const Opened&), cons
 std::vector<Command> run_commands() {
     return {
         {.name = "run", .doc = "Starts the run.", .apply = start_run},
+        {.name = "run_trials",
+         .doc = "Starts the run, and pauses it when the first robot has finished so many more trials.",
+         .arguments = {optional("trials", whole(1, 1'000'000), 1)},
+         .apply = run_trials},
         {.name = "pause", .doc = "Pauses the run.", .apply = pause_run},
         {.name = "step",
          .doc = "Pauses, then computes cycles.",

@@ -7,6 +7,11 @@ export interface Commands {
     arguments: {};
     result: {};
   };
+  /** Starts the run, and pauses it when the first robot has finished so many more trials. */
+  run_trials: {
+    arguments: { trials?: number | null };
+    result: {};
+  };
   /** Pauses the run. */
   pause: {
     arguments: {};
