@@ -157,7 +157,7 @@ void add_recordings(Preparation& p) {
 
 /// Observers are called, and written to checkpoints, in this order. Recordings are the last: when a
 /// checkpoint does not fit the run, it is refused before a file of a recording changes.
-constexpr void (*table[])(Preparation&) = {
+constexpr void (*add_in_order[])(Preparation&) = {
     add_schedule, add_measures, add_manipulations, add_statistics,  add_plots,  add_trials,
     add_scores,   add_paths,    add_film,          add_broadcaster, add_remote, add_recordings,
 };
@@ -167,7 +167,7 @@ constexpr void (*table[])(Preparation&) = {
 void add_observers(PreparedRun& prepared, bug::World* world, Diagnostics& diagnostics) {
     Preparation preparation{prepared, world, diagnostics, *plot::format_of("x." + prepared.spec.plot_format),
                             run_title(prepared.spec.input)};
-    for (const auto add : table) add(preparation);
+    for (const auto add : add_in_order) add(preparation);
 }
 
 void add_checkpoints(PreparedRun& prepared, const Sources& sources) {
