@@ -1,4 +1,5 @@
-// The names that users give groups, processes and connections. Whatever takes such a name resolves it here.
+// Resolves the names that users give groups, processes and connections: in assignments, sources, pictures and
+// options.
 #pragma once
 
 #include <string_view>

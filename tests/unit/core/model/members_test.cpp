@@ -1,5 +1,4 @@
-// Every member of a model is changed, one after the other, and whatever compares or copies models must
-// notice.
+// Changes every member of a model in turn. Comparisons, merges and files must notice each change.
 #include "core/model/members.h"
 
 #include <functional>
