@@ -460,7 +460,7 @@ TEST_CASE("the vocabulary has every element of the check, and names what its tex
     CHECK(width["unit"] == "cells");
     for (const auto& [name, attribute, names] :
          {std::tuple("Neuron", 0, "neuron"), std::tuple("Parameter", 0, "parameter"),
-          std::tuple("Parameter", 1, "value"), std::tuple("Connection", 2, "group"),
+          std::tuple("Parameter", 1, "value"), std::tuple("Connection", 3, "group"),
           std::tuple("XRef", 0, "port"), std::tuple("XRef", 1, "target")})
         CHECK(element(name)["attributes"][static_cast<std::size_t>(attribute)]["names"] == names);
     for (const auto& e1 : vocabulary["elements"])
