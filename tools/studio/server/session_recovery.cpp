@@ -39,90 +39,106 @@ std::set<std::string> systems_of_killed() {
 
 const char* const begin_anew = "begin anew, or close this message";
 
-}  // namespace
-
-json Session::json_of_changes(const Changes& changes) {
+json json_of(const Changes& changes) {
     json out = json::object();
     for (const auto& [name, change] : changes) out[name] = {change.assignment, change.loaded};
     return out;
 }
 
-Session::Changes Session::changes_of(const json& text) {
+Changes changes_of(const json& text) {
     Changes out;
     for (const auto& [name, change] : text.items())
         out[name] = {change.at(0).get<std::string>(), change.at(1)};
     return out;
 }
 
+json json_of(const std::vector<UndoStep>& steps) {
+    json out = json::array();
+    for (const auto& step : steps) out.push_back({step.undo, step.redo, step.title, step.document});
+    return out;
+}
+
+std::vector<UndoStep> steps_of(const json& text) {
+    std::vector<UndoStep> out;
+    for (const auto& step : text) out.push_back({step.at(0), step.at(1), step.at(2), step.at(3)});
+    return out;
+}
+
+}  // namespace
+
 void Session::keep() {
-    kept_.emplace(input_.system);
-    if (!document_->path().empty()) note_recent(document_->path());
+    recovery.files.emplace(edited.input.system);
+    if (!edited.document->path().empty()) note_recent(edited.document->path());
     look_for_killed();
-    saved_version_ = version_;  // there is nothing to lose yet
+    recovery.version = live.version;  // there is nothing to lose yet
 }
 
 void Session::keep_anew() {
-    kept_->forget_running();
+    recovery.files->forget_running();
     try {
         keep();
     } catch (const std::exception& e) {
-        kept_.reset();
-        save_failed_ = e.what();
+        recovery.files.reset();
+        recovery.failed = e.what();
     }
 }
 
 void Session::look_for_killed() {
-    killed_ = nullptr;
+    recovery.killed = nullptr;
     try {
-        if (const auto content = kept_->killed()) {
+        if (const auto content = recovery.files->killed()) {
             Archive archive{std::string_view(*content)};
             Head head;
             archive(head);
-            killed_ = {{"cycle", head.cycle}, {"seconds", head.seconds}, {"saved", head.saved}};
+            recovery.killed = {{"cycle", head.cycle}, {"seconds", head.seconds}, {"saved", head.saved}};
         }
     } catch (const std::exception& e) {
-        save_failed_ = e.what();
-        kept_->forget_killed();
+        recovery.failed = e.what();
+        recovery.files->forget_killed();
     }
-    status_due_ = true;
+    pages.status_due = true;
 }
 
 void Session::save() {
     try {
         Archive archive;
         Head head;
-        head.files = files_, head.cycle = run_->cycle(), head.seconds = run_->seconds();
+        head.files = live.files, head.cycle = live.run->cycle(), head.seconds = live.run->seconds();
         head.saved = std::chrono::duration_cast<std::chrono::seconds>(
                          std::chrono::system_clock::now().time_since_epoch())
                          .count();
-        RunInput opened = input_, begun = begun_;
-        json undo = json::array(), redo = json::array(), compare;
-        for (const auto& u : undo_) undo.push_back({u.undo, u.redo, u.title, u.document});
-        for (const auto& u : redo_) redo.push_back({u.undo, u.redo, u.title, u.document});
+        RunInput opened = edited.input, begun = live.begun;
+        json compare;
         json world;
-        if (world_text_) world = {world_text_->path, world_text_->text, world_text_->saved};
-        if (reference_)
-            compare = {{"from", reference_->from}, {"changed", json_of_changes(reference_->changed)}};
-        std::string rest = json{{"world", world},    {"changed", json_of_changes(changed_)},
-                                {"undo", undo},      {"redo", redo},
-                                {"panels", panels_}, {"mode", mode_},
-                                {"value", value_},   {"compare", compare}}
-                               .dump(-1, ' ', false, json::error_handler_t::replace);
+        if (edited.world_text)
+            world = {edited.world_text->path, edited.world_text->text, edited.world_text->saved};
+        if (live.reference)
+            compare = {{"from", live.reference->from}, {"changed", json_of(live.reference->changed)}};
+        std::string rest = json{
+            {"world", world},
+            {"changed", json_of(live.changed)},
+            {"undo", json_of(edited.steps.undo)},
+            {"redo", json_of(edited.steps.redo)},
+            {"panels", pages.panels},
+            {"mode", live.pace.mode()},
+            {"value", live.pace.value()},
+            {"compare",
+             compare}}.dump(-1, ' ', false, json::error_handler_t::replace);
         archive(head);
         archive_input(archive, opened), archive_input(archive, begun);
-        bool waits = wanted_.has_value();
-        RunInput wanted = wanted_.value_or(RunInput());
-        archive(rest, *document_, current_, waits);
+        bool waits = edited.wanted.has_value();
+        RunInput wanted = edited.wanted.value_or(RunInput());
+        archive(rest, *edited.document, edited.current, waits);
         if (waits) archive_input(archive, wanted);
-        history_.save(archive, run_->cycle());
-        if (reference_) reference_->past.save(archive, run_->cycle());
-        kept_->write(archive.bytes());
-        save_failed_.clear();
+        live.history.save(archive, live.run->cycle());
+        if (live.reference) live.reference->past.save(archive, live.run->cycle());
+        recovery.files->write(archive.bytes());
+        recovery.failed.clear();
     } catch (const std::exception& e) {
-        save_failed_ = fmt::format("the session cannot be kept for the case of a crash: {}", e.what());
+        recovery.failed = fmt::format("the session cannot be kept for the case of a crash: {}", e.what());
     }
-    saved_version_ = version_;
-    status_due_ = true;
+    recovery.version = live.version;
+    pages.status_due = true;
 }
 
 /// What the file of a killed session holds.
@@ -135,7 +151,7 @@ struct Session::Killed {
     History past;
     std::optional<Reference> reference;
     Changes changed;
-    std::vector<Undo> undo, redo;
+    UndoSteps steps;
     std::optional<WorldText> world_text;
     json panels;
     std::string mode;
@@ -166,8 +182,7 @@ Session::Killed Session::read_killed(std::string_view content) {
         out.reference = std::move(made);
     }
     out.changed = changes_of(rest.at("changed"));
-    for (const auto& u : rest.at("undo")) out.undo.push_back({u.at(0), u.at(1), u.at(2), u.at(3)});
-    for (const auto& u : rest.at("redo")) out.redo.push_back({u.at(0), u.at(1), u.at(2), u.at(3)});
+    out.steps = {steps_of(rest.at("undo")), steps_of(rest.at("redo"))};
     if (const auto& world = rest.at("world"); !world.is_null())
         out.world_text = {world.at(0), world.at(1), world.at(2)};
     out.panels = rest.at("panels");
@@ -184,47 +199,47 @@ Session::Killed Session::read_killed(std::string_view content) {
 }
 
 void Session::recover() {
-    if (!kept_) throw InputError("nothing is kept of sessions", "the messages at the start say why");
-    const auto content = kept_->killed();
+    if (!recovery.files) throw InputError("nothing is kept of sessions", "the messages at the start say why");
+    const auto content = recovery.files->killed();
     if (!content) {
         const auto others = systems_of_killed();
-        throw InputError(fmt::format("no session of '{}' was killed", input_.system),
+        throw InputError(fmt::format("no session of '{}' was killed", edited.input.system),
                          others.empty()
                              ? "begin anew"
                              : fmt::format("there are sessions of '{}'", fmt::join(others, "', '")));
     }
     auto killed = read_killed(*content);
-    const RunInput before = wanted_.value_or(input_);
+    const RunInput before = edited.wanted.value_or(edited.input);
     open(std::move(killed.begun));
     try {
-        history_ = std::move(killed.past);
+        live.history = std::move(killed.past);
         replay(killed.cycle);
     } catch (...) {  // a course that cannot be taken again leaves the system as it was opened
         open_any(before);
         throw;
     }
-    input_ = std::move(killed.opened);
-    begin_document(begun_);
-    wanted_ = std::move(killed.wanted);
-    if (killed.current) built_ = killed.document.system();
-    document_ = std::move(killed.document), current_ = killed.current;
-    problems_ = document_->problems(run_->registry(), run_->environment());
+    edited.input = std::move(killed.opened);
+    begin_document(live.begun);
+    edited.wanted = std::move(killed.wanted);
+    if (killed.current) edited.built = killed.document.system();
+    edited.document = std::move(killed.document), edited.current = killed.current;
+    edited.problems = edited.document->problems(live.run->registry(), live.run->environment());
     if (killed.reference) run_beside(std::move(*killed.reference), killed.cycle);
-    changed_ = std::move(killed.changed);
-    undo_ = std::move(killed.undo), redo_ = std::move(killed.redo);
-    trim_undo();
-    world_text_ = std::move(killed.world_text);
+    live.changed = std::move(killed.changed);
+    edited.steps = std::move(killed.steps);
+    edited.steps.trim(edited.document->steps());
+    edited.world_text = std::move(killed.world_text);
     note_opening();
-    panels_ = std::move(killed.panels);
+    pages.panels = std::move(killed.panels);
     set_speed(killed.mode, killed.value);
     save();
-    if (save_failed_.empty()) kept_->forget_killed();
-    killed_ = nullptr;
+    if (recovery.failed.empty()) recovery.files->forget_killed();
+    recovery.killed = nullptr;
 }
 
 void Session::end() {
     close_sampler();
-    if (kept_) kept_->forget_running();
+    if (recovery.files) recovery.files->forget_running();
 }
 
 }  // namespace forage::studio

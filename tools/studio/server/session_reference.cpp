@@ -8,10 +8,10 @@
 namespace forage::studio {
 
 void Session::swap_reference() {
-    std::swap(run_, reference_->run);
-    std::swap(touches_, reference_->touches);
-    std::swap(history_, reference_->past);
-    std::swap(changed_, reference_->changed);
+    std::swap(live.run, live.reference->run);
+    std::swap(live.touches, live.reference->touches);
+    std::swap(live.history, live.reference->past);
+    std::swap(live.changed, live.reference->changed);
 }
 
 void Session::with_reference(const std::function<void()>& act) {
@@ -28,9 +28,9 @@ void Session::with_reference(const std::function<void()>& act) {
 
 void Session::begin_reference(std::uint64_t cycle) {
     Reference made;
-    made.from = cycle, made.changed = changed_;
+    made.from = cycle, made.changed = live.changed;
     Archive out;
-    history_.save(out, cycle);
+    live.history.save(out, cycle);
     Archive in{std::string_view(out.bytes())};
     made.past.load(in);
     run_beside(std::move(made), cycle);
@@ -38,25 +38,25 @@ void Session::begin_reference(std::uint64_t cycle) {
 
 void Session::run_beside(Reference made, std::uint64_t cycle) {
     end_reference();
-    std::tie(made.run, made.touches) = make_run(begun_);
-    reference_.emplace(std::move(made));
+    std::tie(made.run, made.touches) = make_run(live.begun);
+    live.reference.emplace(std::move(made));
     with_reference([&] { replay(cycle); });
-    status_due_ = true;
+    pages.status_due = true;
 }
 
 void Session::step_reference() {
     with_reference([this] {
         repeat_actions();
-        run_->step();
-        history_.after_cycle(*run_);
+        live.run->step();
+        live.history.after_cycle(*live.run);
     });
 }
 
 void Session::end_reference() {
-    if (!reference_) return;
-    for (auto& [id, client] : clients_) client.end_reference();
-    reference_.reset();
-    status_due_ = true;
+    if (!live.reference) return;
+    for (auto& [id, client] : pages.clients) client.end_reference();
+    live.reference.reset();
+    pages.status_due = true;
 }
 
 }  // namespace forage::studio

@@ -54,30 +54,30 @@ void refuse_taken_ids(const model::System& system, const model::ProcessFile& fil
 
 json read_document(Session& s, const Request&) {
     s.look_outside();
-    const auto& text = s.document_->text();
+    const auto& text = s.edited.document->text();
     if (text.size() > max_text)
         throw InputError(fmt::format("the text has {} MB, too many for a page", text.size() >> 20),
                          "open the file in an editor; the studio notices when it changes");
     json out = s.document_message();
-    out["text"] = text, out["generation"] = s.generation_;
+    out["text"] = text, out["generation"] = s.edited.generation;
     return out;
 }
 
 json open_new_system(Session& s, const Request& r) {
-    RunInput input = s.input_;
+    RunInput input = s.edited.input;
     input.more.clear(), input.settings.clear(), input.robots.clear(), input.replay.clear();
     const Document made = Document::create(r.text("name"));
     input.text = made.text();
     input.system = "untitled.iqr";
     input.world = r.text("world"), input.world_text.clear();
     s.open_document(input);
-    s.document_ = made;
-    s.tell_document();
+    s.edited.document = made;
+    s.broadcast_document();
     return json::object();
 }
 
 json save_document(Session& s, const Request& r) {
-    auto& document = *s.document_;
+    auto& document = *s.edited.document;
     const auto file = r.text("file");
     if (!file.empty() && fs::path(file).extension() != ".iqr")
         throw InputError(fmt::format("'{}' is not a name of a system", file), "it ends with .iqr");
@@ -88,21 +88,21 @@ json save_document(Session& s, const Request& r) {
                          "save it under the name of the system, or under another one");
     document.save(file, s.run().registry(), r.flag("overwrite"));
     // The file now has a text that does not run.
-    if (!s.current_ && s.input_.text.empty()) s.input_.text = s.begun_.text;
-    s.input_.system = document.path();
-    if (s.wanted_) s.wanted_->system = document.path();
-    s.outside_ = false;
-    if (s.current_) s.built_ = document.system();
+    if (!s.edited.current && s.edited.input.text.empty()) s.edited.input.text = s.live.begun.text;
+    s.edited.input.system = document.path();
+    if (s.edited.wanted) s.edited.wanted->system = document.path();
+    s.edited.outside = false;
+    if (s.edited.current) s.edited.built = document.system();
     note_recent(document.path());
-    if (s.kept_ && document.path() != before) s.keep_anew(), s.saved_version_.reset();
-    s.tell_action("save", (to == before ? "save " : "save as ") + fs::path(to).filename().string(),
-                  of_save(s.edited_file(before), to));
-    s.tell(s.system_message()), s.tell_document();
+    if (s.recovery.files && document.path() != before) s.keep_anew(), s.recovery.version.reset();
+    s.broadcast_action("save", (to == before ? "save " : "save as ") + fs::path(to).filename().string(),
+                       of_save(s.edited_file(before), to));
+    s.pages.broadcast(s.system_message()), s.broadcast_document();
     return {{"file", document.path()}};
 }
 
 json write_backup(Session& s, const Request&) {
-    auto path = s.document_->path();
+    auto path = s.edited.document->path();
     if (const auto backup = backup_of(path)) path = backup->system;
     if (path.empty()) throw InputError("the system has no file yet", "save it first");
     refuse_shipped(s, path);
@@ -111,19 +111,19 @@ json write_backup(Session& s, const Request&) {
     localtime_r(&now, &local);
     const auto file = backup_path(path, local);
     if (fs::exists(file)) throw InputError(fmt::format("'{}' exists", file), "wait for a second");
-    write_file(file, s.document_->text());
+    write_file(file, s.edited.document->text());
     return {{"file", file}};
 }
 
 json reload_document(Session& s, const Request& r) {
     const auto keep = r.text("keep");
-    const bool step = s.document_->reload(keep == "mine"     ? Document::Keep::mine
-                                          : keep == "theirs" ? Document::Keep::theirs
-                                                             : Document::Keep::merge);
-    s.outside_ = false;
+    const bool step = s.edited.document->reload(keep == "mine"     ? Document::Keep::mine
+                                                : keep == "theirs" ? Document::Keep::theirs
+                                                                   : Document::Keep::merge);
+    s.edited.outside = false;
     if (step) return follow_edit(s, keep == "theirs" ? "the text of the file" : "merge with the file");
-    s.tell_document();
-    return {{"generation", s.generation_}};
+    s.broadcast_document();
+    return {{"generation", s.edited.generation}};
 }
 
 /// Adds an empty process whose content is in a file.
@@ -138,7 +138,7 @@ std::string add_link(model::System& system, const model::ProcessFile& file, cons
 }
 
 json import_process_file(Session& s, const Request& r) {
-    auto& document = *s.document_;
+    auto& document = *s.edited.document;
     const auto path = r.text("file");
     const bool link = r.flag("link");
     auto file = process_file(path);
@@ -167,21 +167,22 @@ json export_process_file(Session& s, const Request& r) {
     const auto path = r.text("file");
     if (fs::path(path).extension() != ".iqrProcess")
         throw InputError(fmt::format("'{}' is not a name of a process", path), "it ends with .iqrProcess");
-    if (!s.document_->readable())
+    if (!s.edited.document->readable())
         throw InputError("the text of the system has mistakes that hide its meaning", "correct them first");
     check_free(s, path, r.flag("overwrite"));
-    write_file(path, xml::write_process(model::extract_process(s.document_->system(), r.text("process"))));
+    write_file(path,
+               xml::write_process(model::extract_process(s.edited.document->system(), r.text("process"))));
     return {{"file", path}};
 }
 
 json change_settings(Session& s, const Request& r) {
     if (r.has("save_interval")) {
-        Settings next = s.settings_;
+        Settings next = s.recovery.settings;
         next.save_interval = r.number("save_interval");
         write_settings(next);
-        s.settings_ = next;
+        s.recovery.settings = next;
     }
-    return {{"save_interval", s.settings_.save_interval}};
+    return {{"save_interval", s.recovery.settings.save_interval}};
 }
 
 json list_files(Session& s, const Request& r) {
@@ -236,7 +237,7 @@ std::vector<Command> document_commands() {
          .doc = "Returns the changes since the last save, as `diff -u` prints them.",
          .result = "{ text: string }",
          .apply = [](Session& s, const Request&) -> json {
-             return {{"text", s.document_->difference()}};
+             return {{"text", s.edited.document->difference()}};
          }},
         {.name = "new",
          .doc = "Opens a system without content and without a file.",

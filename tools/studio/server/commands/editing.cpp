@@ -159,32 +159,33 @@ struct Description {
 
 /// Whether the last step is one of the document alone, so that the next one may join it.
 bool joins_document(const Session& s) {
-    return s.undo_.empty() || (s.undo_.back().document && s.undo_.back().undo.is_null());
+    return s.edited.steps.undo.empty() ||
+           (s.edited.steps.undo.back().document && s.edited.steps.undo.back().undo.is_null());
 }
 
 /// Follows a change of the document: a step, or one that joined the step before.
 json follow_change(Session& s, bool step, const std::string& title, const std::string& text_before,
                    const Equivalent& script = {}) {
     if (step) return follow_edit(s, title, script);
-    if (s.document_->text() != text_before) {
+    if (s.edited.document->text() != text_before) {
         s.follow_document(title, script);
-        s.tell_document();
+        s.broadcast_document();
     }
-    return {{"generation", s.generation_}};
+    return {{"generation", s.edited.generation}};
 }
 
 /// The script of operations that made these ids; empty for parameters, which have that of `set`.
 Equivalent script_edit(const Session& s, json operations, const json& ids) {
     const auto is_parameter = [](const json& o) { return o.value("do", "") == "parameter"; };
-    if (s.current_ && std::ranges::all_of(operations, is_parameter)) return {};
+    if (s.edited.current && std::ranges::all_of(operations, is_parameter)) return {};
     for (std::size_t i = 0; i < operations.size(); ++i)
         if (ids[i].is_string() && operations[i].value("do", "").starts_with("add_"))
             operations[i]["id"] = ids[i];
-    return of_edit(s.edited_file(s.document_->path()), operations);
+    return of_edit(s.edited_file(s.edited.document->path()), operations);
 }
 
 json edit_document(Session& s, const Request& r) {
-    auto& document = *s.document_;
+    auto& document = *s.edited.document;
     const auto& operations = r["operations"];
     if (operations.empty()) throw InputError("there is no operation");
     std::string title = r.text("title");
@@ -207,13 +208,13 @@ json edit_document(Session& s, const Request& r) {
 
 /// The number of synapses of a connection of the document; 0 when it cannot be built.
 std::size_t count_synapses(Session& s, const std::string& connection) {
-    if (s.current_) {  // the run has counted them
+    if (s.edited.current) {  // the run has counted them
         const auto& all = s.run().layout().connections;
         const auto it = std::ranges::find(all, connection, &engine::Layout::Connection::id);
         if (it != all.end()) return s.run().simulation().synapses(static_cast<int>(it - all.begin()));
     }
     try {
-        return describe_synapses(s.document_->system(), connection, s.run().seed(), 0)["synapses"];
+        return describe_synapses(s.edited.document->system(), connection, s.run().seed(), 0)["synapses"];
     } catch (const InputError&) {
         return 0;
     }
@@ -221,12 +222,12 @@ std::size_t count_synapses(Session& s, const std::string& connection) {
 
 /// The id of an item that a command names.
 std::string item_id(const Session& s, const std::string& item) {
-    return item == "system" ? s.document_->system().id : item;
+    return item == "system" ? s.edited.document->system().id : item;
 }
 
 json describe_item(Session& s, const Request& r) {
     const auto id = r.text("item");
-    const auto& document = *s.document_;
+    const auto& document = *s.edited.document;
     const auto& registry = s.run().registry();
     json out = Description{document.system(), document.saved_system(), registry}.of(id);
     if (out.is_null()) {  // another system that runs, too; it has no document
@@ -247,33 +248,34 @@ json describe_item(Session& s, const Request& r) {
 json replace_item_text(Session& s, const Request& r) {
     const auto item = r.text("item");
     const auto title = "edit the text of " + (item == "system" ? "the system" : item);
-    const auto before = s.document_->text();
-    const bool step = s.document_->replace_item_text(item_id(s, item), r.text("text"), title);
+    const auto before = s.edited.document->text();
+    const bool step = s.edited.document->replace_item_text(item_id(s, item), r.text("text"), title);
     return follow_change(s, step, title, before);
 }
 
 json check_item_text(Session& s, const Request& r) {
-    const auto found = s.document_->check_item_text(item_id(s, r.text("item")), r.text("text"),
-                                                    s.run().registry(), s.run().environment());
+    const auto found = s.edited.document->check_item_text(item_id(s, r.text("item")), r.text("text"),
+                                                          s.run().registry(), s.run().environment());
     return {{"problems", problems_of(found)}};
 }
 
 json replace_text(Session& s, const Request& r) {
-    const std::string title = "edit the text of the system", before = s.document_->text();
+    const std::string title = "edit the text of the system", before = s.edited.document->text();
     const bool step =
-        s.document_->write_text(r.text("text"), title, joins_document(s) ? r.text("merge") : "");
+        s.edited.document->write_text(r.text("text"), title, joins_document(s) ? r.text("merge") : "");
     return follow_change(s, step, title, before);
 }
 
 json copy_items(Session& s, const Request& r) {
     const auto connections = r.flag("connections") ? model::Between::all : model::Between::named;
-    return {{"text", xml::write_system(model::copy(s.document_->system(), r.texts("ids"), connections))}};
+    return {
+        {"text", xml::write_system(model::copy(s.edited.document->system(), r.texts("ids"), connections))}};
 }
 
 constexpr const char* connection_parts[] = {"pattern", "arborization", "attenuation", "delay"};
 
 json preview_connection(Session& s, const Request& r) {
-    model::System system = s.document_->system();
+    model::System system = s.edited.document->system();
     const auto id = r.text("connection");
     for (const char* part : connection_parts)
         if (r.has(part))
@@ -284,10 +286,10 @@ json preview_connection(Session& s, const Request& r) {
 }  // namespace
 
 json follow_edit(Session& s, const std::string& title, const Equivalent& script) {
-    s.add_undo({nullptr, nullptr, title, true});
+    s.edited.add_step({nullptr, nullptr, title, true});
     s.follow_document(title, script);
-    s.tell_document();
-    return {{"generation", s.generation_}};
+    s.broadcast_document();
+    return {{"generation", s.edited.generation}};
 }
 
 std::vector<Command> editing_commands() {

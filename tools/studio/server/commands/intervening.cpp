@@ -71,7 +71,7 @@ Manipulation::Settings settings_in(Session& s, const json& action) {
 
 /// The action that makes the manipulation of a group what it is now.
 json present_action(Session& s, int group) {
-    const auto& found = s.touches_->groups();
+    const auto& found = s.live.touches->groups();
     const auto it = found.find(group);
     if (it == found.end()) return {{"command", "revoke"}, {"group", group_at(s, group).path}};
     const auto& m = it->second.settings();
@@ -93,7 +93,7 @@ json manipulate_group(Session& s, const Request& r) {
     action["group"] = path;
     s.act(action, present_action(s, settings.group),
           described_action(s, action, fmt::format("{} {}", name_of(settings.mode), path), path));
-    return {{"generation", s.generation_}};
+    return {{"generation", s.edited.generation}};
 }
 
 DrivenGroup driven_by(Session& s, const json& manipulation) {
@@ -111,16 +111,17 @@ Equivalent script_manipulate(Session& s, const json& action) {
 json revoke_manipulation(Session& s, const Request& r) {
     const int group = find_group(s, r.text("group"));
     const auto& path = group_at(s, group).path;
-    if (!s.touches_->groups().contains(group)) throw InputError(fmt::format("'{}' is not manipulated", path));
+    if (!s.live.touches->groups().contains(group))
+        throw InputError(fmt::format("'{}' is not manipulated", path));
     const json action = {{"command", "revoke"}, {"group", path}};
     s.act(action, present_action(s, group), described_action(s, action, "revoke " + path, path));
-    return {{"generation", s.generation_}};
+    return {{"generation", s.edited.generation}};
 }
 
 Equivalent script_revoke(Session& s, const json& action) {
     const auto now = present_action(s, find_group(s, action.at("group").get<std::string>()));
     if (now.at("command") != "manipulate") return {};
-    const auto& actions = s.history_.actions();
+    const auto& actions = s.live.history.actions();
     const auto begun = std::find_if(actions.rbegin(), actions.rend(), [&](const auto& a) {
         return a.command.at("command") == "manipulate" && a.command.at("group") == now.at("group");
     });
@@ -129,7 +130,7 @@ Equivalent script_revoke(Session& s, const json& action) {
 
 json list_manipulations(Session& s, const Request&) {
     json out = json::array();
-    for (const auto& [group, m] : s.touches_->groups()) {
+    for (const auto& [group, m] : s.live.touches->groups()) {
         out.push_back(present_action(s, group));
         out.back().erase("command");
     }
@@ -181,15 +182,16 @@ json move_body(Session& s, const Request& r) {
     };
     const json action = action_to({x, y, heading});
     const auto merge = r.text("merge");
-    const bool joined = s.joins_move(merge);
+    const bool joined = s.edited.steps.joins(merge);
     const auto title = fmt::format("move {} to ({:.2f}, {:.2f})", name, x, y);
     s.act(action, before && !joined ? std::optional(action_to(*before)) : std::nullopt,
           described_action(s, action, title));
     if (joined)
-        s.undo_.back().redo = action, s.undo_.back().title = title, s.redo_.clear();
+        s.edited.steps.undo.back().redo = action, s.edited.steps.undo.back().title = title,
+        s.edited.steps.redo.clear();
     else if (before)
-        s.undo_.back().merge = merge;
-    return {{"generation", s.generation_}};
+        s.edited.steps.undo.back().merge = merge;
+    return {{"generation", s.edited.generation}};
 }
 
 std::string moved_body(const json& action) {
@@ -202,7 +204,7 @@ json begin_next_trial(Session& s, const Request& r) {
     const json action = {{"command", "begin_trial"}, {"robot", robot}, {"start", start}};
     const auto title = start < 0 ? "next trial" : fmt::format("next trial from start {}", start + 1);
     s.act(action, std::nullopt, described_action(s, action, title));
-    return {{"generation", s.generation_}};
+    return {{"generation", s.edited.generation}};
 }
 
 void repeat_begin_trial(Session& s, const json& action) {
@@ -228,7 +230,7 @@ std::vector<Command> intervening_commands() {
          .result = generation,
          .changes_run = true,
          .apply = manipulate_group,
-         .repeat = [](Session& s, const json& action) { s.touches_->put(settings_in(s, action)); },
+         .repeat = [](Session& s, const json& action) { s.live.touches->put(settings_in(s, action)); },
          .script = script_manipulate},
         {.name = "revoke",
          .doc = "Ends the manipulation of a group.",
@@ -238,7 +240,7 @@ std::vector<Command> intervening_commands() {
          .apply = revoke_manipulation,
          .repeat =
              [](Session& s, const json& action) {
-                 s.touches_->remove(find_group(s, action.at("group").get<std::string>()));
+                 s.live.touches->remove(find_group(s, action.at("group").get<std::string>()));
              },
          .script = script_revoke},
         {.name = "manipulations",

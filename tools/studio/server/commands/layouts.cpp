@@ -55,15 +55,15 @@ json write_layout(Session& s, const Request& r) {
 }
 
 json keep_panels(Session& s, const Request& r) {
-    s.panels_ = r["content"];
-    s.saved_version_.reset();
+    s.pages.panels = r["content"];
+    s.recovery.version.reset();
     return json::object();
 }
 
 }  // namespace
 
 std::filesystem::path system_folder(const Session& s) {
-    const auto parent = std::filesystem::path(s.input_.system).parent_path();
+    const auto parent = std::filesystem::path(s.edited.input.system).parent_path();
     return parent.empty() ? "." : parent;
 }
 

@@ -14,19 +14,19 @@ namespace {
 constexpr std::size_t max_synapses = 200'000;  ///< in a reply
 
 Client& page_of(Session& s, const Request& r) {
-    const auto it = s.clients_.find(r.client);
-    if (it == s.clients_.end()) throw InputError("only a page can subscribe");
+    const auto it = s.pages.clients.find(r.client);
+    if (it == s.pages.clients.end()) throw InputError("only a page can subscribe");
     return it->second;
 }
 
 /// The run to compare with; null without one.
-Run* reference_of(Session& s) { return s.reference_ ? s.reference_->run.get() : nullptr; }
+Run* reference_of(Session& s) { return s.live.reference ? s.live.reference->run.get() : nullptr; }
 
 json subscribe(Session& s, const Request& r) {
     auto& page = page_of(s, r);
     const auto delivery = r.text("class") == "append" ? Delivery::append : Delivery::latest;
     const auto number = page.subscribe(
-        s.sources_.stream(s.run(), reference_of(s), r.text("source"), delivery, r.whole("every")));
+        s.pages.sources.stream(s.run(), reference_of(s), r.text("source"), delivery, r.whole("every")));
     const auto& stream = page.stream(number);
     return {{"stream", number},
             {"rows", stream.source().rows()},
@@ -42,14 +42,14 @@ json unsubscribe(Session& s, const Request& r) {
 }
 
 json acknowledge(Session& s, const Request& r) {
-    if (const auto it = s.clients_.find(r.client); it != s.clients_.end())
+    if (const auto it = s.pages.clients.find(r.client); it != s.pages.clients.end())
         it->second.acknowledge(static_cast<std::uint32_t>(r.whole("seq")));
     return json::object();
 }
 
 json read_source(Session& s, const Request& r) {
-    const auto shared = s.sources_.find(s.run(), reference_of(s), r.text("source"), Delivery::latest);
-    const auto values = shared->numbers(s.version_);
+    const auto shared = s.pages.sources.find(s.run(), reference_of(s), r.text("source"), Delivery::latest);
+    const auto values = shared->numbers(s.live.version);
     return {{"rows", shared->source().rows()}, {"columns", shared->source().columns()}, {"values", values}};
 }
 
@@ -58,7 +58,7 @@ json list_synapses(Session& s, const Request& r) {
     const auto item = model::find_item(s.run().system(), r.text("connection"), "synapses", diagnostics);
     throw_errors(diagnostics);
     const std::shared_ptr<const Registry> types(std::shared_ptr<const Registry>(), &s.run().registry());
-    const SystemFile file{s.run().system(), s.input_.system, {}, types};
+    const SystemFile file{s.run().system(), s.edited.input.system, {}, types};
     const SynapseTable all = forage::synapses(file, item->id, s.run().seed());
     json out = {{"source", json::array()}, {"target", json::array()},   {"distance", json::array()},
                 {"delay", json::array()},  {"strength", json::array()}, {"total", all.source.size()}};

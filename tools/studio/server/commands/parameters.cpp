@@ -41,7 +41,7 @@ void repeat_set(Session& s, const json& action) {
         throw_errors(diagnostics);
         const auto loaded =
             std::visit([](const auto& v) { return json(v); }, model::value_of(s.run().system(), *change));
-        s.changed_.try_emplace(name_in(text), Session::Change{{}, loaded}).first->second.assignment = text;
+        s.live.changed.try_emplace(name_in(text), Change{{}, loaded}).first->second.assignment = text;
         if (!acts_at_start(*change)) s.run().simulation().set(*change);
     }
 }
@@ -50,20 +50,22 @@ Equivalent script_set(Session& s, const json& action) {
     return of_assignments(action.at("assignments").get<Assignments>(), s.run().cycle());
 }
 
-using Steps = std::vector<Session::Undo>;
+using Steps = std::vector<UndoStep>;
 
 json back_or_forth(Session& s, Steps& from, Steps& to, bool back) {
     if (from.empty()) throw NothingLeft(back ? "there is nothing to undo" : "there is nothing to redo");
-    Session::Undo entry = std::move(from.back());
+    UndoStep entry = std::move(from.back());
     from.pop_back();
     const json& command = back ? entry.undo : entry.redo;
     const bool is_world = command.is_object() && command.at("command") == "world_text";
     const bool is_set = command.is_object() && command.at("command") == "set";
     const std::string title = (back ? "undo: " : "redo: ") + entry.title;
-    if (entry.document) back ? s.document_->undo() : s.document_->redo();
-    auto undone = std::move(s.undo_), redone = std::move(s.redo_);
-    s.undo_.clear(), s.redo_.clear();
-    const auto restore_steps = [&] { s.undo_ = std::move(undone), s.redo_ = std::move(redone); };
+    if (entry.document) back ? s.edited.document->undo() : s.edited.document->redo();
+    auto undone = std::move(s.edited.steps.undo), redone = std::move(s.edited.steps.redo);
+    s.edited.steps.undo.clear(), s.edited.steps.redo.clear();
+    const auto restore_steps = [&] {
+        s.edited.steps.undo = std::move(undone), s.edited.steps.redo = std::move(redone);
+    };
     try {
         if (command.is_null()) {
             s.follow_document(title);
@@ -84,10 +86,10 @@ json back_or_forth(Session& s, Steps& from, Steps& to, bool back) {
     }
     restore_steps();
     if (entry.document && is_set && switches_module(command["assignments"].get<Assignments>()))
-        s.tell(s.system_message());
-    if (entry.document || is_world) s.tell_document();
+        s.pages.broadcast(s.system_message());
+    if (entry.document || is_world) s.broadcast_document();
     to.push_back(std::move(entry));
-    return {{"generation", s.generation_}};
+    return {{"generation", s.edited.generation}};
 }
 
 }  // namespace
@@ -96,7 +98,8 @@ json describe_item_parameters(Session& s, const std::string& item) {
     json out = describe_parameters(s.run(), item);
     if (s.saved_values(out)) return out;
     for (auto& p : out["parameters"])
-        if (const auto it = s.changed_.find(p["assignment"].get<std::string>()); it != s.changed_.end()) {
+        if (const auto it = s.live.changed.find(p["assignment"].get<std::string>());
+            it != s.live.changed.end()) {
             p["loaded"] = it->second.loaded;
             if (p["at_start"]) p["value"] = value_in(it->second.assignment);
         }
@@ -113,7 +116,7 @@ std::vector<std::string> inverse(Session& s, const std::vector<std::string>& ass
         if (!change) continue;
         const auto name = name_in(text);
         ParameterValue now = model::value_of(run.system(), *change);
-        if (const auto it = s.changed_.find(name); it != s.changed_.end() && acts_at_start(*change)) {
+        if (const auto it = s.live.changed.find(name); it != s.live.changed.end() && acts_at_start(*change)) {
             back.push_back(it->second.assignment);
         } else {
             if (!acts_at_start(*change))
@@ -135,11 +138,11 @@ json set_parameters(Session& s, const std::vector<std::string>& assignments, con
     const bool step = s.set_in_document(assignments, title);
     s.act(action, undo, described);
     if (step) {
-        s.undo_.back().document = true;
-        if (switches_module(assignments)) s.tell(s.system_message());
-        s.tell_document();
+        s.edited.steps.undo.back().document = true;
+        if (switches_module(assignments)) s.pages.broadcast(s.system_message());
+        s.broadcast_document();
     }
-    return {{"generation", s.generation_}};
+    return {{"generation", s.edited.generation}};
 }
 
 json described_action(Session& s, const json& action, const std::string& title, const std::string& item) {
@@ -169,12 +172,18 @@ std::vector<Command> parameter_commands() {
          .doc = "Undoes the last step of any page.",
          .result = generation,
          .changes_run = true,
-         .apply = [](Session& s, const Request&) { return back_or_forth(s, s.undo_, s.redo_, true); }},
+         .apply =
+             [](Session& s, const Request&) {
+                 return back_or_forth(s, s.edited.steps.undo, s.edited.steps.redo, true);
+             }},
         {.name = "redo",
          .doc = "Repeats the step that was undone last.",
          .result = generation,
          .changes_run = true,
-         .apply = [](Session& s, const Request&) { return back_or_forth(s, s.redo_, s.undo_, false); }},
+         .apply =
+             [](Session& s, const Request&) {
+                 return back_or_forth(s, s.edited.steps.redo, s.edited.steps.undo, false);
+             }},
     };
 }
 

@@ -8,14 +8,14 @@ namespace {
 /// The cycle that a command names; the present one by default. Throws InputError.
 std::uint64_t past_cycle(Session& s, const Request& r) {
     const auto cycle = r.has("cycle") ? r.whole("cycle") : s.run().cycle();
-    if (cycle < s.history_.first() || cycle > s.history_.last())
+    if (cycle < s.live.history.first() || cycle > s.live.history.last())
         throw InputError(fmt::format("the history does not reach cycle {}", cycle),
-                         fmt::format("from {} to {}", s.history_.first(), s.history_.last()));
+                         fmt::format("from {} to {}", s.live.history.first(), s.live.history.last()));
     return cycle;
 }
 
 json describe_history(Session& s, const Request&) {
-    const auto& past = s.history_;
+    const auto& past = s.live.history;
     json actions = json::array();
     for (const auto& a : past.actions()) actions.push_back({{"cycle", a.cycle}, {"title", a.title}});
     return {{"first", past.first()},        {"last", past.last()},   {"now", s.run().cycle()},
@@ -25,7 +25,7 @@ json describe_history(Session& s, const Request&) {
 
 json seek_cycle(Session& s, const Request& r) {
     s.go_to(past_cycle(s, r));
-    s.status_due_ = true;
+    s.pages.status_due = true;
     return {{"cycle", s.run().cycle()}};
 }
 
@@ -42,7 +42,7 @@ json begin_comparison(Session& s, const Request& r) {
     const auto cycle = past_cycle(s, r);
     const auto assignments = r.texts("assignments");
     if (!assignments.empty()) inverse(s, assignments);
-    if (s.sampler_ && cycle != s.run().cycle())
+    if (s.live.sampler && cycle != s.run().cycle())
         throw InputError("a sampler cannot go back", "stop the sampler first");
     s.begin_reference(cycle);
     s.go_to(cycle);
@@ -53,14 +53,14 @@ json begin_comparison(Session& s, const Request& r) {
 
 json recover_session(Session& s, const Request&) {
     s.recover();
-    s.tell(s.system_message()), s.tell(s.world_message()), s.tell_document();
-    if (s.world_text_) s.tell(describe_world_text(s));
-    return {{"cycle", s.run().cycle()}, {"panels", s.panels_}};
+    s.pages.broadcast(s.system_message()), s.pages.broadcast(s.world_message()), s.broadcast_document();
+    if (s.edited.world_text) s.pages.broadcast(describe_world_text(s));
+    return {{"cycle", s.run().cycle()}, {"panels", s.pages.panels}};
 }
 
 json forget_killed(Session& s, const Request&) {
-    if (s.kept_) s.kept_->forget_killed();
-    s.killed_ = nullptr, s.status_due_ = true;
+    if (s.recovery.files) s.recovery.files->forget_killed();
+    s.recovery.killed = nullptr, s.pages.status_due = true;
     return json::object();
 }
 

@@ -10,14 +10,15 @@ namespace forage::studio {
 namespace {
 
 void check_running(const Session& s) {
-    if (!s.failed_.empty()) throw InputError("the run has failed: " + s.failed_, "stop it, or go back");
+    if (!s.live.failed.empty())
+        throw InputError("the run has failed: " + s.live.failed, "stop it, or go back");
 }
 
 json start_run(Session& s, const Request&) {
     check_running(s);
     begin_waiting_sampler(s);
-    s.running_ = s.status_due_ = true, s.pause_after_trials_.reset();
-    s.pace_from_ = s.rate_from_ = -1, s.measured_rate_ = 0;
+    s.live.pace.running = s.pages.status_due = true, s.live.pause_after_trials.reset();
+    s.live.pace.start();
     return json::object();
 }
 
@@ -26,15 +27,15 @@ json run_trials(Session& s, const Request& r) {
         throw InputError("the world has no trials", "open a world whose robot has trials");
     start_run(s, r);
     const auto trials = r.whole("trials");
-    s.pause_after_trials_ = s.run().environment()->trials(0).size() + trials;
-    s.tell_action("run_trials", fmt::format("run {} trials", trials),
-                  {fmt::format("--trials {}", trials), fmt::format("run.run(trials={})", trials)});
+    s.live.pause_after_trials = s.run().environment()->trials(0).size() + trials;
+    s.broadcast_action("run_trials", fmt::format("run {} trials", trials),
+                       {fmt::format("--trials {}", trials), fmt::format("run.run(trials={})", trials)});
     return json::object();
 }
 
 json pause_run(Session& s, const Request&) {
-    s.pause_after_trials_.reset();
-    s.running_ = false, s.status_due_ = true;
+    s.live.pause_after_trials.reset();
+    s.live.pace.running = false, s.pages.status_due = true;
     return json::object();
 }
 
@@ -45,7 +46,7 @@ json step_run(Session& s, const Request& r) {
     try {
         for (std::uint64_t i = 0; i < r.whole("cycles"); ++i) s.cycle();
     } catch (const engine::RunError& e) {
-        s.failed_ = e.what();
+        s.live.failed = e.what();
         throw;
     }
     return {{"cycle", s.run().cycle()}};
@@ -53,22 +54,22 @@ json step_run(Session& s, const Request& r) {
 
 /// Begins the run again with another input; with the one before when that fails.
 void reset_with(Session& s, RunInput input) {
-    const auto before = std::exchange(s.input_, std::move(input));
+    const auto before = std::exchange(s.edited.input, std::move(input));
     try {
         s.reset();
     } catch (...) {
-        s.input_ = before;
+        s.edited.input = before;
         throw;
     }
 }
 
 json restart_run(Session& s, const Request& r) {
-    RunInput input = s.input_;
+    RunInput input = s.edited.input;
     if (r.has("seed")) input.seed = r.whole("seed");
     const auto ended = s.lost_by_rebuild();
     reset_with(s, input);
-    s.tell_action("restart", fmt::format("begin anew with seed {}", input.seed),
-                  begun_again(s, of_restart, input.world), ended);
+    s.broadcast_action("restart", fmt::format("begin anew with seed {}", input.seed),
+                       begun_again(s, of_restart, input.world), ended);
     return {{"seed", input.seed}};
 }
 
@@ -81,9 +82,9 @@ json set_speed(Session& s, const Request& r) {
 }
 
 json open_system(Session& s, const Request& r) {
-    RunInput input = s.input_;
+    RunInput input = s.edited.input;
     input.more.clear(), input.settings.clear(), input.text.clear(), input.world_text.clear();
-    const std::filesystem::path folder = r.flag("shipped") ? s.shipped_ : "";
+    const std::filesystem::path folder = r.flag("shipped") ? s.shipped() : "";
     const auto world = r.text("world");
     input.system = folder / r.text("system");
     input.world = world.empty() ? world : (folder / world).string();
@@ -93,7 +94,7 @@ json open_system(Session& s, const Request& r) {
 
 /// Drops the steps on the text of another world.
 void forget_world_steps(Session& s) {
-    for (auto* steps : {&s.undo_, &s.redo_})
+    for (auto* steps : {&s.edited.steps.undo, &s.edited.steps.redo})
         std::erase_if(*steps, [](const auto& step) {
             const auto command = step.redo.is_object() ? step.redo.value("command", "") : "";
             return command == "world_text" || command == "move";
@@ -101,17 +102,17 @@ void forget_world_steps(Session& s) {
 }
 
 json open_world(Session& s, const Request& r) {
-    RunInput input = s.input_;
+    RunInput input = s.edited.input;
     input.world = r.text("world"), input.world_text.clear();
     const auto ended = s.lost_by_rebuild();
     reset_with(s, input);
-    s.world_text_.reset();
+    s.edited.world_text.reset();
     forget_world_steps(s);
-    ++s.generation_;
+    ++s.edited.generation;
     const auto name = std::filesystem::path(input.world).filename().string();
-    s.tell_action("world_open", name.empty() ? "begin anew without a world" : "begin anew in " + name,
-                  begun_again(s, of_world, input.world), ended);
-    s.tell(s.world_message()), s.tell(s.system_message()), s.tell_document();
+    s.broadcast_action("world_open", name.empty() ? "begin anew without a world" : "begin anew in " + name,
+                       begun_again(s, of_world, input.world), ended);
+    s.pages.broadcast(s.world_message()), s.pages.broadcast(s.system_message()), s.broadcast_document();
     return {{"world", input.world}};
 }
 
@@ -119,8 +120,8 @@ json list_shipped(Session& s, const Request&) {
     namespace fs = std::filesystem;
     std::vector<std::string> worlds;
     std::error_code failed;
-    if (!s.shipped_.empty())
-        for (const auto& entry : fs::directory_iterator(fs::path(s.shipped_) / "worlds", failed))
+    if (!s.shipped().empty())
+        for (const auto& entry : fs::directory_iterator(fs::path(s.shipped()) / "worlds", failed))
             if (entry.path().extension() == ".world") worlds.push_back(entry.path().string());
     std::ranges::sort(worlds);
     return {{"worlds", worlds}};
@@ -135,7 +136,7 @@ json quit_program(Session& s, const Request&) {
 }  // namespace
 
 Equivalent begun_again(const Session& s, Equivalent (*form)(const Opened&), const std::string& world) {
-    return form({s.input_.system, world, s.input_.seed, s.document_->dirty()});
+    return form({s.edited.input.system, world, s.edited.input.seed, s.edited.document->dirty()});
 }
 
 std::vector<Command> run_commands() {

@@ -63,7 +63,7 @@ void begin_sampling(Session& s, const json& how) {
     observe::RowFileHeader header;
     for (const auto& source : files.front().sources) header.sources.push_back(source.what());
     header.every = every;
-    Session::Sampler sampler;
+    Sampler sampler;
     sampler.what = {sources, file, every, s.run().cycle()};
     if (const auto cycles = how.find("cycles"); cycles != how.end()) {
         sampler.left = cycles->get<std::uint64_t>();
@@ -74,13 +74,13 @@ void begin_sampling(Session& s, const json& how) {
                     : observe::open_row_file(files.front().format, partial(file), header);
     sampler.recorder.emplace(std::move(rows), std::move(files.front().sources),
                              observe::Sampling{every, 0, std::nullopt, false});
-    s.sampler_ = std::move(sampler);
-    s.status_due_ = true;
-    s.tell_action("sample", "record into " + file, of_sampling(s.sampler_->what));
+    s.live.sampler = std::move(sampler);
+    s.pages.status_due = true;
+    s.broadcast_action("sample", "record into " + file, of_sampling(s.live.sampler->what));
 }
 
 json begin_sampler(Session& s, const Request& r) {
-    if (s.sampler_) throw InputError("the sampler runs already", "stop it first");
+    if (s.live.sampler) throw InputError("the sampler runs already", "stop it first");
     const bool automatic = r.flag("automatic");
     json how = r.all();
     // The second run would find the file of the first one.
@@ -88,21 +88,21 @@ json begin_sampler(Session& s, const Request& r) {
     if (automatic && how["mode"] == "new")
         throw InputError("a file for each run is one of a sequence, or it is overwritten or appended to",
                          "sequence, overwrite or append");
-    if (automatic && !s.running_) {
-        s.sampler_waits_ = how;
-        s.status_due_ = true;
+    if (automatic && !s.live.pace.running) {
+        s.live.waiting_sampler = how;
+        s.pages.status_due = true;
         return {{"file", nullptr}};
     }
     begin_sampling(s, how);
-    if (automatic) s.sampler_waits_ = how;
-    return {{"file", s.sampler_->what.file}};
+    if (automatic) s.live.waiting_sampler = how;
+    return {{"file", s.live.sampler->what.file}};
 }
 
 json stop_sampler(Session& s, const Request&) {
-    if (!s.sampler_ && s.sampler_waits_.is_null()) throw InputError("the sampler does not run");
+    if (!s.live.sampler && s.live.waiting_sampler.is_null()) throw InputError("the sampler does not run");
     json out = {{"file", nullptr}, {"rows", 0}};
-    if (s.sampler_) out = {{"file", s.sampler_->what.file}, {"rows", s.sampler_->rows}};
-    s.sampler_waits_ = nullptr, s.status_due_ = true;
+    if (s.live.sampler) out = {{"file", s.live.sampler->what.file}, {"rows", s.live.sampler->rows}};
+    s.live.waiting_sampler = nullptr, s.pages.status_due = true;
     s.close_sampler();
     return out;
 }
@@ -110,9 +110,9 @@ json stop_sampler(Session& s, const Request&) {
 }  // namespace
 
 void begin_waiting_sampler(Session& s) {
-    if (s.sampler_waits_.is_null() || s.sampler_ || s.sampled_) return;
-    begin_sampling(s, s.sampler_waits_);
-    s.sampled_ = true;
+    if (s.live.waiting_sampler.is_null() || s.live.sampler || s.live.sampled) return;
+    begin_sampling(s, s.live.waiting_sampler);
+    s.live.sampled = true;
 }
 
 std::vector<Command> sampling_commands() {

@@ -41,7 +41,7 @@ json described_action(Session& session, const json& action, const std::string& t
 json follow_edit(Session& session, const std::string& title, const Equivalent& script = {});
 
 // ---- the text of the world ----
-Session::WorldText& world_text(Session& session);
+WorldText& world_text(Session& session);
 json describe_world_text(Session& session);
 void set_world_text(Session& session, const std::string& text);
 /// Builds the run again in a world of this text: robots and what they carry stay where they are. Throws

@@ -50,7 +50,7 @@ json flat(json made) {
 
 /// The text of the world that runs.
 std::string running_world(Session& s) {
-    return s.input_.world_text.empty() ? world_text(s).saved : s.input_.world_text;
+    return s.edited.input.world_text.empty() ? world_text(s).saved : s.edited.input.world_text;
 }
 
 json edit_world(Session& s, const Request& r) {
@@ -83,17 +83,18 @@ json edit_world(Session& s, const Request& r) {
         run_in_world(s, running);
         redo["run"] = running;
     }
-    const bool joins = !merge.empty() && !s.undo_.empty() && s.undo_.back().redo.is_object() &&
-                       s.undo_.back().redo.value("command", "") == "world_text" &&
-                       s.undo_.back().redo.value("merge", "") == merge;
+    const bool joins = !merge.empty() && !s.edited.steps.undo.empty() &&
+                       s.edited.steps.undo.back().redo.is_object() &&
+                       s.edited.steps.undo.back().redo.value("command", "") == "world_text" &&
+                       s.edited.steps.undo.back().redo.value("merge", "") == merge;
     if (joins)
-        s.undo_.back().redo = redo, s.undo_.back().title = title;
+        s.edited.steps.undo.back().redo = redo, s.edited.steps.undo.back().title = title;
     else
-        s.add_undo({undo, redo, title, false});
-    s.redo_.clear();
+        s.edited.add_step({undo, redo, title, false});
+    s.edited.steps.redo.clear();
     set_world_text(s, text);
     broadcast_world_edit(s, title, of_world_edit(s.edited_file(world_text(s).path), operations), runs, ended);
-    return {{"ids", std::move(ids)}, {"generation", s.generation_}};
+    return {{"ids", std::move(ids)}, {"generation", s.edited.generation}};
 }
 
 json save_world(Session& s, const Request& r) {
@@ -106,7 +107,7 @@ json save_world(Session& s, const Request& r) {
         check_new(file, r.flag("overwrite"));
     else if (!r.flag("overwrite") && read_file(file) != world.saved)
         throw FileExists(fmt::format("'{}' was changed outside since it was read", file), "overwrite it");
-    RunInput wanted = s.begun_;  // with the text that the system had: its file may have changed
+    RunInput wanted = s.live.begun;  // with the text that the system had: its file may have changed
     wanted.world = file, wanted.world_text = world.text;
     s.make_run(wanted);  // a world in which the system cannot run is not written
     auto forms = begun_again(s, of_world, file);
@@ -116,18 +117,18 @@ json save_world(Session& s, const Request& r) {
     }
     write_file(file, world.text);
     world.saved = world.text, world.path = file;
-    const auto before = s.input_;
+    const auto before = s.edited.input;
     const auto ended = s.lost_by_rebuild();
-    s.input_.world = file, s.input_.world_text.clear();
+    s.edited.input.world = file, s.edited.input.world_text.clear();
     try {
         s.reset();  // the run begins anew in the world as it is now
     } catch (...) {
-        s.input_ = before;
+        s.edited.input = before;
         throw;
     }
     const auto name = std::filesystem::path(file).filename().string();
-    s.tell_action("world_save", "save " + name + " and begin anew in it", forms, ended);
-    s.tell(s.world_message()), s.tell(describe_world_text(s));
+    s.broadcast_action("world_save", "save " + name + " and begin anew in it", forms, ended);
+    s.pages.broadcast(s.world_message()), s.pages.broadcast(describe_world_text(s));
     return {{"file", file}};
 }
 
@@ -140,13 +141,13 @@ json list_kinds(Session&, const Request&) {
 
 }  // namespace
 
-Session::WorldText& world_text(Session& s) {
-    if (!s.world_text_) {
-        if (s.input_.world.empty()) throw InputError("the system has no world", "open it with a world");
-        s.world_text_ = {s.input_.world, read_file(s.input_.world), {}};
-        s.world_text_->saved = s.world_text_->text;
+WorldText& world_text(Session& s) {
+    if (!s.edited.world_text) {
+        if (s.edited.input.world.empty()) throw InputError("the system has no world", "open it with a world");
+        s.edited.world_text = {s.edited.input.world, read_file(s.edited.input.world), {}};
+        s.edited.world_text->saved = s.edited.world_text->text;
     }
-    return *s.world_text_;
+    return *s.edited.world_text;
 }
 
 json describe_world_text(Session& s) {
@@ -162,20 +163,20 @@ json describe_world_text(Session& s) {
 
 void set_world_text(Session& s, const std::string& text) {
     world_text(s).text = text;
-    ++s.generation_;
-    s.saved_version_.reset();  // it is kept for the case of a crash, also while nothing runs
-    s.tell(describe_world_text(s));
-    s.tell_document();  // what can be undone
+    ++s.edited.generation;
+    s.recovery.version.reset();  // it is kept for the case of a crash, also while nothing runs
+    s.pages.broadcast(describe_world_text(s));
+    s.broadcast_document();  // what can be undone
 }
 
 void run_in_world(Session& s, const std::string& text) {
-    if (!s.current_)
+    if (!s.edited.current)
         throw InputError("the system has problems", "correct them first; the run keeps its world");
-    const auto before = std::exchange(s.input_.world_text, text);
-    const auto problems = s.problems_;
+    const auto before = std::exchange(s.edited.input.world_text, text);
+    const auto problems = s.edited.problems;
     if (s.rebuild(true)) return;
-    const auto found = std::exchange(s.problems_, problems);
-    s.input_.world_text = before;
+    const auto found = std::exchange(s.edited.problems, problems);
+    s.edited.input.world_text = before;
     for (const auto& p : found)
         if (p.diagnostic.severity == Severity::error)
             throw InputError(p.diagnostic.message, "the run keeps its world");
@@ -184,18 +185,18 @@ void run_in_world(Session& s, const std::string& text) {
 
 void broadcast_world_edit(Session& s, const std::string& title, const Equivalent& forms, bool runs,
                           const std::vector<std::string>& ended) {
-    if (runs) ++s.version_;
-    s.status_due_ = true;
-    s.tell({{"type", "action"},
-            {"generation", s.generation_},
-            {"cycle", s.run().cycle()},
-            {"command", "world_edit"},
-            {"title", title},
-            {"shell", forms.shell},
-            {"python", forms.python},
-            {"undoable", true},
-            {"ended", runs ? ended : std::vector<std::string>()}});
-    if (runs) s.tell(s.world_message());
+    if (runs) ++s.live.version;
+    s.pages.status_due = true;
+    s.pages.broadcast({{"type", "action"},
+                       {"generation", s.edited.generation},
+                       {"cycle", s.run().cycle()},
+                       {"command", "world_edit"},
+                       {"title", title},
+                       {"shell", forms.shell},
+                       {"python", forms.python},
+                       {"undoable", true},
+                       {"ended", runs ? ended : std::vector<std::string>()}});
+    if (runs) s.pages.broadcast(s.world_message());
 }
 
 std::vector<Command> world_commands() {

@@ -1,0 +1,65 @@
+// The run of a session, its past and its pace.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "core/observe/recorder.h"
+#include "core/run/run.h"
+#include "core/run/run_spec.h"
+#include "tools/studio/server/equivalents.h"
+#include "tools/studio/server/history.h"
+#include "tools/studio/server/pace.h"
+#include "tools/studio/server/touches.h"
+
+namespace forage::studio {
+
+/// A parameter that was set.
+struct Change {
+    std::string assignment;
+    nlohmann::json loaded;  ///< the value of the file
+};
+using Changes = std::map<std::string, Change>;  ///< by the name of the parameter
+
+/// A recording of a page.
+struct Sampler {
+    Sampled what;
+    std::uint64_t rows = 0;
+    std::optional<std::uint64_t> left;  ///< cycles
+    std::optional<observe::Recorder> recorder;
+};
+
+/// A second run from the same past, in step with the run. It repeats what the run did. It is begun as the
+/// run was, so that the past alone reproduces it.
+struct Reference {
+    std::uint64_t from = 0;  ///< the cycle since which they may differ
+    std::unique_ptr<Run> run;
+    Touches* touches = nullptr;
+    History past;
+    Changes changed;
+};
+
+struct LiveRun {
+    std::unique_ptr<Run> run;
+    RunInput begun;     ///< with the parameters of the last stop
+    std::string files;  ///< digest of the files of system and world, when they were read
+    Touches* touches = nullptr;
+    History history;
+    Changes changed;
+    std::optional<Reference> reference;
+    Pace pace;
+    std::string failed;  ///< why a cycle could not be computed
+    std::uint32_t epoch = 1;
+    std::uint64_t version = 0;
+    std::optional<std::size_t> pause_after_trials;  ///< the number of finished trials of the first robot
+    std::optional<Sampler> sampler;
+    nlohmann::json waiting_sampler;  ///< the arguments of a sampler that begins with the run; null for none
+    bool sampled = false;            ///< whether it has begun in this run
+};
+
+}  // namespace forage::studio
