@@ -486,9 +486,8 @@ class Editing(unittest.TestCase):
             page.do('pause')
             self.assertIn('not saved', page.do('document')['text'])
             self.assertTrue(page.last('document')['dirty'])
-            # What the file lacks is in the next form.
             page.do('edit', operations=[{'do': 'rename', 'id': group, 'name': 'Renamed'}])
-            self.assertIn('not saved', page.last('action')['shell'])
+            self.assertIn('Renamed', page.last('action')['shell'])
             page.do('undo')
             page.do('undo')
             self.assertFalse(page.last('document')['dirty'])
