@@ -31,8 +31,8 @@ endif()
 
 # Includes of headers are written from the project's root: <forage/plugin.h> for users, "core/..." in the headers.
 install(DIRECTORY tools/api/forage/ DESTINATION ${FORAGE_HEADER_DIR} COMPONENT dev FILES_MATCHING PATTERN "*.h")
-install(DIRECTORY core/base core/types core/model core/engine core/observe core/run DESTINATION ${FORAGE_HEADER_DIR}/core COMPONENT dev
-        FILES_MATCHING PATTERN "*.h" PATTERN philox.h EXCLUDE)
+install(CODE "set(sources ${PROJECT_SOURCE_DIR})\nset(folder ${FORAGE_HEADER_DIR})" COMPONENT dev)
+install(SCRIPT cmake/InstallPublicHeaders.cmake COMPONENT dev)
 
 # Plugins need only Eigen. Programs that run systems need the libraries that Forage itself uses.
 set(directories INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${FORAGE_HEADER_DIR})

@@ -1,0 +1,21 @@
+# Installs the headers of `core` that users may include: those that the public headers of tools/api/forage include, directly or through
+# others. Run at installation, with `sources` (the project's root) and `folder` (below the prefix).
+file(GLOB open RELATIVE ${sources} ${sources}/tools/api/forage/*.h)
+cmake_policy(VERSION 3.22)
+set(found core/types/size_checks.h)  # the compiler includes it into every plugin
+list(APPEND open ${found})
+while(open)
+  list(POP_FRONT open header)
+  file(STRINGS ${sources}/${header} lines REGEX "^#include \"core/")
+  foreach(line IN LISTS lines)
+    string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" included "${line}")
+    if(NOT included IN_LIST found)
+      list(APPEND found ${included})
+      list(APPEND open ${included})
+    endif()
+  endforeach()
+endwhile()
+foreach(header IN LISTS found)
+  get_filename_component(below ${header} DIRECTORY)
+  file(INSTALL ${sources}/${header} DESTINATION ${CMAKE_INSTALL_PREFIX}/${folder}/${below})
+endforeach()
