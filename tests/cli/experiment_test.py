@@ -333,7 +333,7 @@ class Interrupted(Experiment):
     def test_ctrl_c_prints_how_to_continue(self):
         (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "1000"))
         process = subprocess.Popen([FORAGE, "experiment", "robot.xml", "-o", "out"], cwd=self.here, stderr=subprocess.PIPE, text=True)
-        wait_for((self.here / "out/runs").exists, process)
+        wait_for(lambda: any((self.here / "out/runs").glob("*")), process)  # then it notes signals
         process.send_signal(signal.SIGINT)
         _, said = process.communicate(timeout=600)
         self.assertEqual(process.returncode, 130)
