@@ -1,8 +1,6 @@
 #include "bug_interface/simulation/robot_sensors.h"
 
 #include <algorithm>
-#include <cmath>
-#include <utility>
 
 #include "bug_interface/sensing/solid_ray.h"
 

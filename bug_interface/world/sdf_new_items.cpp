@@ -1,6 +1,5 @@
 #include "bug_interface/world/sdf_new_items.h"
 
-#include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
 #include "bug_interface/world/sdf_unpack.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
 #include "core/observe/column.h"
 
-#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>

@@ -1,6 +1,5 @@
 #include "core/run/run_json.h"
 
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>

@@ -1,7 +1,6 @@
 #include "core/xml/canvas.h"
 
 #include <charconv>
-#include <cstdlib>
 
 #include <fmt/format.h>
 #include <tinyxml2.h>

@@ -1,6 +1,5 @@
 #include "core/xml/patch.h"
 
-#include <algorithm>
 #include <map>
 #include <vector>
 

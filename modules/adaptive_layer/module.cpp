@@ -1,6 +1,5 @@
 #include "modules/adaptive_layer/module.h"
 
-#include <stdexcept>
 #include <vector>
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 #include "modules/adaptive_layer/weights_file.h"
 
 #include <cmath>
-#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>

@@ -2,8 +2,6 @@
 
 #include <stdexcept>
 
-#include <fmt/format.h>
-
 #include "core/base/text_file.h"
 
 namespace forage::replay {

@@ -1,6 +1,5 @@
 #include "tools/plot/canvas.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <stdexcept>

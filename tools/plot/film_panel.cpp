@@ -1,7 +1,6 @@
 #include "tools/plot/film_panel.h"
 
 #include <algorithm>
-#include <memory>
 #include <string>
 
 #include <cairo.h>

@@ -4,7 +4,6 @@
 // and copied back. So an array that outlives its call is valid memory, an update that raises changes nothing,
 // and the engine may place columns as it likes.
 #include <cmath>
-#include <mutex>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>

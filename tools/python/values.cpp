@@ -1,7 +1,5 @@
 #include "tools/python/values.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

@@ -4,8 +4,6 @@
 #include <fstream>
 #include <iterator>
 
-#include <fmt/format.h>
-
 #include "core/base/output_files.h"
 #include "core/run/experiment/result_json.h"
 #include "core/run/input_files.h"

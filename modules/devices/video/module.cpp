@@ -1,6 +1,5 @@
 #include "modules/devices/video/module.h"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 

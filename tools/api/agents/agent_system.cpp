@@ -1,6 +1,5 @@
 #include "tools/api/agents/agent_system.h"
 
-#include <algorithm>
 #include <string_view>
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
 #include "tools/api/describe/describe_json.h"
 
 #include <cmath>
-#include <map>
 #include <set>
 #include <utility>
 

@@ -1,5 +1,4 @@
 // Pictures and films of a run in memory.
-#include <algorithm>
 
 #include <fmt/format.h>
 #include <forage/forage.h>
