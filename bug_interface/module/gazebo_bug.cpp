@@ -112,8 +112,7 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
         .unit("half extents")
         .doc(
             "Width of a place cell's receptive field, exp(-(distance/sigma)^2), in units of half the extent "
-            "of "
-            "the area: 0.2 with placeXMax 10 is 2 m.");
+            "of the area: 0.2 with placeXMax 10 is 2 m.");
     s.param("headSigma", &T::head_sigma)
         .label("Head sigma")
         .unit("turn")
@@ -202,8 +201,7 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
         .size(2, 1)
         .doc(
             "Cell 1: 1 in the cycle after a trial that reached a target. Cell 2: 1 from the end of a trial "
-            "to the "
-            "beginning of the next one. Not delayed by --latency.");
+            "to the beginning of the next one. Not delayed by --latency.");
 }
 
 void GazeboBug::check(const ModulePorts& ports, Diagnostics& diagnostics) {

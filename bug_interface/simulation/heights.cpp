@@ -19,12 +19,11 @@ int Heights::layer(double low, double high, const Location& where, Diagnostics& 
             return static_cast<int>(i);
     if (ranges_.size() == max_layers) {
         if (!too_many_)
-            diagnostics.error(
-                where,
-                fmt::format("the shapes of robots and movable objects have more than {} different ranges of "
-                            "heights: {:g} to {:g} m is one too many",
-                            max_layers, low, high),
-                "let shapes begin and end at the same heights");
+            diagnostics.error(where,
+                              fmt::format("the shapes of robots and movable objects have more than {} "
+                                          "different ranges of heights: {:g} to {:g} m is one too many",
+                                          max_layers, low, high),
+                              "let shapes begin and end at the same heights");
         too_many_ = true;
         return 0;
     }

@@ -82,8 +82,7 @@ constexpr Row rows[] = {
     {"sdf", "actor:* light model world?", "version:version"},
     {"world",
      "actor:* atmosphere:* audio:* frame:* gravity:3 gui:* include light magnetic_field:3 model physics "
-     "plugin "
-     "population:* road:* scene spherical_coordinates:* state:* wind:*",
+     "plugin population:* road:* scene spherical_coordinates:* state:* wind:*",
      "name"},
     {"physics",
      "bullet:* dart:* gravity:3 magnetic_field:3 max_contacts:i max_step_size:step ode provide_feedback:b "
@@ -101,13 +100,11 @@ constexpr Row rows[] = {
     {"include", "name:s placement_frame:s plugin pose:p static:b uri+:uri"},
     {"model",
      "allow_auto_disable:b enable_wind:b frame:* gripper:* include joint link model plugin pose:p "
-     "self_collide:b "
-     "static:b",
+     "self_collide:b static:b",
      "name"},
     {"link",
      "audio_sink:* audio_source:* battery:* collision enable_wind:b frame:* gravity:b inertial kinematic:b "
-     "light "
-     "must_be_base_link:b particle_emitter:* pose:p projector:* self_collide:b sensor velocity_decay:* "
+     "light must_be_base_link:b particle_emitter:* pose:p projector:* self_collide:b sensor velocity_decay:* "
      "visual",
      "name"},
     {"inertial", "frame:* inertia mass:mass pose:p"},
@@ -130,16 +127,14 @@ constexpr Row rows[] = {
     {"script", "name:s uri:s"},
     {"joint",
      "axis axis2:* child+:link frame:* gearbox_ratio:1 gearbox_reference_body:s parent+:link physics:* "
-     "pose:p "
-     "sensor thread_pitch:1",
+     "pose:p sensor thread_pitch:1",
      "name type:joint"},
     {"axis", "dynamics:* initial_position:1 limit use_parent_model_frame:b xyz:3"},
     {"limit", "cfm:1 dissipation:1 effort:1 erp:1 lower:1 stiffness:1 upper:1 velocity:1"},
     {"sensor",
      "air_pressure:* altimeter:* always_on:b camera contact:* enable_metrics:b force_torque:* frame:* gps:* "
-     "imu:* "
-     "lidar:* logical_camera:* magnetometer:* navsat:* plugin pose:p ray rfid:* rfidtag:* sonar:* topic:s "
-     "transceiver:* update_rate:rate visualize:b",
+     "imu:* lidar:* logical_camera:* magnetometer:* navsat:* plugin pose:p ray rfid:* rfidtag:* sonar:* "
+     "topic:s transceiver:* update_rate:rate visualize:b",
      "name type"},
     {"ray", "noise range scan"},
     {"scan", "horizontal vertical"},

@@ -103,8 +103,7 @@ class Reader {
                 diagnostics_.error(where,
                                    fmt::format("model '{}' not found: there is no folder of models", uri),
                                    "put models into a folder 'models' beside the world file or up to two "
-                                   "above, or name their "
-                                   "folder in FORAGE_MODEL_PATH");
+                                   "above, or name their folder in FORAGE_MODEL_PATH");
             }
             return {};
         }

@@ -153,8 +153,7 @@ class ManipulationReader {
             diagnostics_.error(
                 {}, fmt::format("{} '{}': {}", what({}), spec.table.text, e.errors().front().message),
                 "write 'Process/Group=value', 'Process/Group(x,y)=value' or 'Process/Group=FILE', or name a "
-                "table of "
-                "rows cycle,process,group,v0,v1,...");
+                "table of rows cycle,process,group,v0,v1,...");
         }
     }
 

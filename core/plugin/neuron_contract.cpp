@@ -87,15 +87,13 @@ std::string undeclared_numbers(const NeuronType& type, const Given& declared) {
         given.undeclared = {1, value};
         if (matters(given))
             return "its update() reads random numbers that it does not declare, which stay 0: 'static "
-                   "constexpr "
-                   "int random_numbers = N;' is missing, misspelt or too small";
+                   "constexpr int random_numbers = N;' is missing, misspelt or too small";
     }
     Given given = declared;
     given.undeclared = {0, 0};
     if (matters(given))
         return "its update() reads Input::event, which stays 1: 'double event_probability() const' is "
-               "missing or "
-               "misspelt";
+               "missing or misspelt";
     return {};
 }
 

@@ -40,14 +40,12 @@ void CheckpointWriter::write(Run& run) {
 void check_checkpoints(const engine::Layout& layout, const std::string& option, Diagnostics& diagnostics) {
     for (const auto& m : layout.modules)
         if (!m.type.checkpoints)
-            diagnostics.error(
-                {},
-                fmt::format("{}: the module type '{}' of process '{}' does not say what it keeps beside its "
-                            "parameters",
-                            option, m.type.name, m.process),
-                "give the type a member 'void checkpoint(forage::Archive& archive)' that lists the members "
-                "that "
-                "start() does not restore");
+            diagnostics.error({},
+                              fmt::format("{}: the module type '{}' of process '{}' does not say what it "
+                                          "keeps beside its parameters",
+                                          option, m.type.name, m.process),
+                              "give the type a member 'void checkpoint(forage::Archive& archive)' that lists "
+                              "the members that start() does not restore");
 }
 
 }  // namespace forage

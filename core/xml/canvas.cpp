@@ -139,9 +139,8 @@ std::string write_canvas_part(const CanvasPart& part) {
 
 std::string canvas_forms() {
     return "there are forage:comment with id, x, y, width, height, color and text in a <System> or "
-           "<Process>, "
-           "forage:phantom with group, x and y in a <Process>, and forage:vertices with page and points in a "
-           "<DiagramLine>";
+           "<Process>, forage:phantom with group, x and y in a <Process>, and forage:vertices with page and "
+           "points in a <DiagramLine>";
 }
 
 }  // namespace forage::xml

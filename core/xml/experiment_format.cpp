@@ -49,8 +49,7 @@ Format make_format() {
                flag("noise", "of motors and sensors")}},
              {"bind",
               "lets a robot of a system be another robot of the world; when several systems have it, the "
-              "first "
-              "one that is not yet bound",
+              "first one that is not yet bound",
               "",
               {required(text("robot", "the system's robot: the device_name of a module")),
                required(text("to", "the world's robot"))}},

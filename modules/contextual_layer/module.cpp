@@ -22,8 +22,7 @@ void ContextualLayerModule::describe(ModuleSpec<ContextualLayerModule>& s) {
     s.name("moduleCL", "Contextual Layer")
         .doc(
             "Remembers the sequences of prototypes and actions that led to a goal, and repeats the actions "
-            "when "
-            "the prototypes recur.");
+            "when the prototypes recur.");
     s.param("Memory Height", &T::height)
         .label("Memory height")
         .range(0, 1000)

@@ -40,8 +40,7 @@ void QLearnerModule::describe(ModuleSpec<QLearnerModule>& s) {
     s.input("reward", "Reward")
         .doc(
             "Cell 1: reward of this cycle. Cell 2, if there is one: above 0 from the end of an episode to "
-            "the "
-            "beginning of the next one; without it a reward ends the episode.");
+            "the beginning of the next one; without it a reward ends the episode.");
     s.output("action", "Action")
         .same_size_as("action")
         .doc("1 at the proposed action; all 0 when none is proposed.");

@@ -69,9 +69,7 @@ void SequentialControlModule::describe(ModuleSpec<SequentialControlModule>& s) {
     s.param("Sequence Length", &T::segments)
         .range(1, 1000)
         .at_start()
-        .doc(
-            "NS: number of couplets of state "
-            "and action in the short-term memory and in a sequence.");
+        .doc("NS: number of couplets of state and action in the short-term memory and in a sequence.");
     s.param("Memory Capacity", &T::capacity)
         .range(1, 100000)
         .at_start()
@@ -105,9 +103,7 @@ void SequentialControlModule::describe(ModuleSpec<SequentialControlModule>& s) {
             "reward), RWD-PROP or PROP (a share of the lowest), PRIOR (a random one).");
     s.param("Forgotten Share", &T::share)
         .range(0, 1)
-        .doc(
-            "phi: share of the sequences that RWD-PROP "
-            "forgets, rounded down.");
+        .doc("phi: share of the sequences that RWD-PROP forgets, rounded down.");
     s.param("Decision Interval", &T::interval)
         .unit("cycles")
         .range(1, 1000)
@@ -134,8 +130,7 @@ void SequentialControlModule::describe(ModuleSpec<SequentialControlModule>& s) {
     s.input("reward", "Reward")
         .doc(
             "Cell 1: reward of this cycle. Cell 2, if there is one: above 0 from the last cycle of an "
-            "episode "
-            "to the beginning of the next one; without it a goal ends the episode.");
+            "episode to the beginning of the next one; without it a goal ends the episode.");
     s.input("discrepancy", "Discrepancy")
         .optional()
         .cells(1)
@@ -144,8 +139,7 @@ void SequentialControlModule::describe(ModuleSpec<SequentialControlModule>& s) {
         .same_size_as("action")
         .doc("1 at the chosen action; all 0 when none is chosen, or the module does not act.");
     s.output("Q", "Q").optional().same_size_as("action").doc(
-        "Sum of the values of the selected segments of "
-        "each action.");
+        "Sum of the values of the selected segments of each action.");
     s.output("policy", "Policy").optional().same_size_as("action").doc("Probability of each action.");
     s.output("entropy", "Entropy").optional().cells(1).doc("Entropy of the policy in bits.");
     const auto picture = [&](const char* name, const char* label, const char* doc, bool whole) {
@@ -160,8 +154,7 @@ void SequentialControlModule::describe(ModuleSpec<SequentialControlModule>& s) {
             .doc(doc);
     };
     picture("memory", "Memory",
-            "1 for each used segment. Row: sequence, the oldest first; column: segment, "
-            "the oldest first.",
+            "1 for each used segment. Row: sequence, the oldest first; column: segment, the oldest first.",
             true);
     picture("eligibility", "Eligibility", "Collector of each segment.", true);
     picture("trigger", "Trigger", "Trigger of each segment.", true);

@@ -87,8 +87,7 @@ void add_plugins(CLI::App& command, std::vector<std::string>& plugins) {
     repeated(
         command.add_option("--plugin", plugins,
                            "Plugin with more types (.so), or a folder of plugins, in addition to those in "
-                           "FORAGE_PLUGIN_PATH and in the folder plugins beside the system; may be "
-                           "repeated"))
+                           "FORAGE_PLUGIN_PATH and in the folder plugins beside the system; may be repeated"))
         ->option_text("PATH");
 }
 
@@ -107,23 +106,22 @@ void add_input(CLI::App& command, RunInput& input) {
     command.add_option("-w,--world", input.world, "World in which the robot lives (.world)")
         ->check([](const std::string& name) { return name.empty() ? "no file is named" : std::string(); })
         ->option_text("FILE");
+    repeated(command.add_option_function<std::vector<std::string>>(
+                 "-s,--set",
+                 [&input](const std::vector<std::string>& texts) {
+                     for (const auto& text : texts) input.settings.push_back({text});
+                 },
+                 "Change a parameter: 'Process/Group.parameter=value', 'Process.parameter=value' for a "
+                 "module, 'Connection.parameter=value' for a synapse; may be repeated"))
+        ->option_text("WHERE=VALUE");
     repeated(
         command.add_option_function<std::vector<std::string>>(
-            "-s,--set",
+            "--robot",
             [&input](const std::vector<std::string>& texts) {
-                for (const auto& text : texts) input.settings.push_back({text});
+                for (const auto& text : texts) input.robots.push_back({text});
             },
-            "Change a parameter: 'Process/Group.parameter=value', 'Process.parameter=value' for a module, "
-            "'Connection.parameter=value' for a synapse; may be repeated"))
-        ->option_text("WHERE=VALUE");
-    repeated(command.add_option_function<std::vector<std::string>>(
-                 "--robot",
-                 [&input](const std::vector<std::string>& texts) {
-                     for (const auto& text : texts) input.robots.push_back({text});
-                 },
-                 "Let the system's robot NAME (device_name) be another robot of the world; when "
-                 "several systems have a robot NAME, it is the first one that no earlier --robot "
-                 "has bound; may be repeated"))
+            "Let the system's robot NAME (device_name) be another robot of the world; when several systems "
+            "have a robot NAME, it is the first one that no earlier --robot has bound; may be repeated"))
         ->option_text("NAME=ROBOT");
     add_plugins(command, input.plugins);
     command.add_flag("--lenient", input.lenient,
@@ -168,9 +166,9 @@ void add_experiment(CLI::App& app, ExperimentOptions& o) {
         ->option_text("N");
     add_plugins(experiment, o.plugins);
     experiment.add_flag("--fresh", o.fresh, "Repeat finished runs");
-    repeated(experiment.add_option("--table-format", o.formats,
-                                   "Write the results also as results.npy or results.h5: npy or hdf5; may be "
-                                   "repeated"))
+    repeated(experiment.add_option(
+                 "--table-format", o.formats,
+                 "Write the results also as results.npy or results.h5: npy or hdf5; may be repeated"))
         ->check(one_of({"npy", "hdf5"}))
         ->option_text("FORMAT");
     experiment.add_flag("-q,--quiet", o.quiet, "Print errors only");

@@ -70,20 +70,18 @@ void add_manipulations(CLI::App& run, RunSpec& o) {
 }
 
 void add_recording(CLI::App& run, RunSpec& o) {
-    auto* record =
-        repeated(run.add_option_function<std::vector<std::string>>(
-                     "-r,--record",
-                     [&o](const std::vector<std::string>& texts) {
-                         for (const auto& text : texts) o.recordings.push_back({{text}});
-                     },
-                     "Write 'Process/Group' (its activity) or 'Process/Group:state' to a file; "
-                     "'...(x1..x2,y1..y2)' for some of its cells, 'mean(...)' for their mean, '...=NAME.h5' "
-                     "to name the file; may be repeated"))
-            ->option_text("SOURCE");
+    auto* record = repeated(run.add_option_function<std::vector<std::string>>(
+                                "-r,--record",
+                                [&o](const std::vector<std::string>& texts) {
+                                    for (const auto& text : texts) o.recordings.push_back({{text}});
+                                },
+                                "Write 'Process/Group' (its activity) or 'Process/Group:state' to a file; "
+                                "'...(x1..x2,y1..y2)' for some of its cells, 'mean(...)' for their mean, "
+                                "'...=NAME.h5' to name the file; may be repeated"))
+                       ->option_text("SOURCE");
     run.add_option("--format", o.record.format,
                    "Format of recordings without a file name: csv, npy, npz (NumPy), h5 (HDF5) or dat (the "
-                   "original's "
-                   "data sampler) [csv]")
+                   "original's data sampler) [csv]")
         ->check(one_of({"csv", "npy", "npz", "h5", "dat"}))
         ->option_text("FORMAT")
         ->needs(record);
@@ -111,8 +109,8 @@ void add_recording(CLI::App& run, RunSpec& o) {
                  [&o](const std::vector<std::string>& texts) {
                      for (const auto& text : texts) o.plots.push_back({text});
                  },
-                 "Draw a picture: 'time:SOURCE', 'space:SOURCE@CYCLES', 'movie:SOURCE', 'connection:NAME' "
-                 "or 'diagram', see 'forage plot --help'; may be repeated"))
+                 "Draw a picture: 'time:SOURCE', 'space:SOURCE@CYCLES', 'movie:SOURCE', 'connection:NAME' or "
+                 "'diagram', see 'forage plot --help'; may be repeated"))
         ->option_text("PLOT");
     add_plot_format(run, o.plot_format);
 }
@@ -121,10 +119,11 @@ void add_recording(CLI::App& run, RunSpec& o) {
 Endpoint endpoint(const std::string& option, const std::string& text, int lowest) {
     const auto out = parse_endpoint(text);
     if (!out || out->port < lowest)
-        throw CLI::ValidationError(option,
-                                   fmt::format("'{}' is neither a port, such as '54923', nor a host and a "
-                                               "port, such as '127.0.0.1:54923'",
-                                               text));
+        throw CLI::ValidationError(
+            option,
+            fmt::format(
+                "'{}' is neither a port, such as '54923', nor a host and a port, such as '127.0.0.1:54923'",
+                text));
     return *out;
 }
 
@@ -132,8 +131,8 @@ void add_network(CLI::App& run, RunSpec& o) {
     run.add_option_function<std::string>(
            "--remote", [&o](const std::string& text) { o.remote = endpoint("--remote", text, 0); },
            "Obey commands that arrive as datagrams at this port of this computer: 'cmd:stop', "
-           "'cmd:param;...'. 0 "
-           "takes a free port; HOST:PORT listens at another address, to every machine that reaches it")
+           "'cmd:param;...'. 0 takes a free port; HOST:PORT listens at another address, to every machine "
+           "that reaches it")
         ->option_text("PORT");
     auto* broadcast =
         run.add_option_function<std::string>(
@@ -226,17 +225,15 @@ void add_run_options(CLI::App& run, RunOptions& options) {
            "Film the world from above, with what the robots see: an animated .gif, or numbered .png files")
         ->option_text("FILE")
         ->needs("--world");
-    run.add_option(
-           "--threads", o.threads,
-           "Largest number of threads that share a cycle. It pays for large systems, while cores are idle. "
-           "The numbers do not depend on it [1]")
+    run.add_option("--threads", o.threads,
+                   "Largest number of threads that share a cycle. It pays for large systems, while cores are "
+                   "idle. The numbers do not depend on it [1]")
         ->transform(threads())
         ->option_text("N");
     run.add_option_function<std::string>(
            "--checkpoint-every", [&o](const std::string& text) { o.checkpoint_every = parse_interval(text); },
            "Write a checkpoint every N cycles, or every 'N s' of the world. After any stop, even a power "
-           "cut, "
-           "'forage resume' continues from there")
+           "cut, 'forage resume' continues from there")
         ->option_text("N")
         ->excludes("--video");  // a film cannot be resumed
     run.add_flag("--discard-checkpoint", o.discard_checkpoint,
@@ -247,13 +244,12 @@ void add_run_options(CLI::App& run, RunOptions& options) {
                o.on_nan = text == "warn" ? OnNan::warn : text == "stop" ? OnNan::stop : OnNan::ignore;
            },
            "When a number becomes NaN or infinite in a group that is computed: 'warn' once and continue, "
-           "'stop', "
-           "or 'ignore' it [warn]")
+           "'stop', or 'ignore' it [warn]")
         ->check(one_of({"warn", "stop", "ignore"}))
         ->option_text("HOW");
-    run.add_flag("--hash", o.digest,
-                 "Print a digest of the final state: equal runs have equal digests. All groups are "
-                 "computed for it");
+    run.add_flag(
+        "--hash", o.digest,
+        "Print a digest of the final state: equal runs have equal digests. All groups are computed for it");
     run.add_flag("--realtime", options.real_time,
                  "Run at most as fast as the clock: one second of the world per second");
     run.add_flag("-q,--quiet", options.quiet, "Print errors only");

@@ -46,8 +46,7 @@ int tutorial(const TutorialOptions& o) {
     if (first != all.end() && !o.system.empty()) {
         fmt::print(stderr,
                    "error: which exercise?\n  hint: 'forage tutorial {} --system FILE' checks a file for the "
-                   "first one; "
-                   "without --system, the exercises are listed\n",
+                   "first one; without --system, the exercises are listed\n",
                    first->number);
         return bad_input;
     }
@@ -60,8 +59,7 @@ int tutorial(const TutorialOptions& o) {
         }
         fmt::print(
             "\nforage tutorial {} runs the first one; with --system FILE, on a file of your own. "
-            "docs/tutorial "
-            "has the text.\n",
+            "docs/tutorial has the text.\n",
             first->number);
         return fine;
     }

@@ -60,8 +60,7 @@ void RowPlot::add_frame(std::uint64_t cycle, std::span<const double> numbers) {
     if (!spec_.cycles.empty()) {
         if (frames_.size() == max_panels)
             throw std::runtime_error(
-                fmt::format("'{}' has more than {} pictures: choose a larger step, such as "
-                            "'@0..10000/100'",
+                fmt::format("'{}' has more than {} pictures: choose a larger step, such as '@0..10000/100'",
                             spec_.text, max_panels));
         frames_.push_back({cycle, {numbers.begin(), numbers.end()}});
     } else if (spec_.kind == PlotSpec::Kind::space) {  // the last one

@@ -62,16 +62,15 @@ Picture drawn_with(const ColourScale& scale, const WiringPlot& plot, std::vector
                                                      side(target.height, source.height))),
                                  double(largest_cell));
     if (cell < smallest_cell)
-        throw std::runtime_error(fmt::format(
-            "'{}' joins groups of {} x {} and {} x {} cells, which are too large for a wiring plot; draw "
-            "'connection:{}'",
-            plot.title, source.width, source.height, target.width, target.height, plot.title));
+        throw std::runtime_error(
+            fmt::format("'{}' joins groups of {} x {} and {} x {} cells, which are too large for a wiring "
+                        "plot; draw 'connection:{}'",
+                        plot.title, source.width, source.height, target.width, target.height, plot.title));
     const double step_x = cell * source.width + frame, step_y = cell * source.height + frame;
     const double width = step_x * target.width, height = step_y * target.height;
-    const std::string legend = fmt::format(
-        "each panel is a cell of {} and shows {}: coloured are the cells "
-        "from which it receives",
-        plot.target, plot.source);
+    const std::string legend =
+        fmt::format("each panel is a cell of {} and shows {}: coloured are the cells from which it receives",
+                    plot.target, plot.source);
     return {
         std::max({left + width + bar_gap + bar_width + colour_bar_labels, 560.0,
                   24 + Measure().canvas().width_of(legend, 12)}),

@@ -242,8 +242,7 @@ Raises OSError when the file cannot be written. A system with mistakes can be sa
 Raises InputError with all mistakes. Their lines are those of to_xml(). Warnings are issued as InputWarning.)")
         .def("diagram", &draw_diagram, "process"_a = none, "format"_a = "svg",
              "Draws the processes, groups and connections of the system, or of one process, as `forage plot` "
-             "does. Returns a "
-             "Picture. Raises InputError.")
+             "does. Returns a Picture. Raises InputError.")
         .def(
             "describe",
             [](const PythonSystem& self, const std::string& format) { return describe(self, format); },
@@ -269,9 +268,9 @@ Raises InputError for mistakes in the system, and ValueError for another format.
     system
         .def_readonly("plugins", &PythonSystem::plugins,
                       "The shared objects with types, and folders of them.")
-        .def_readonly("path", &PythonSystem::path,
-                      "The path of its file, which need not exist. Relative paths in the system start at its "
-                      "folder.")
+        .def_readonly(
+            "path", &PythonSystem::path,
+            "The path of its file, which need not exist. Relative paths in the system start at its folder.")
         .def_property_readonly(
             "processes", [](PythonSystem& self) { return items<SystemProcess>(self, self.model.processes); },
             "The processes, in the order of the file.")

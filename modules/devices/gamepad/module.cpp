@@ -33,8 +33,7 @@ void GamepadModule::describe(ModuleSpec<GamepadModule>& s) {
         .at_start()
         .doc(
             "The device, /dev/input/js* or /dev/input/event*, or a file or pipe with its records. Names that "
-            "begin with js have the "
-            "records of a joystick, others those of evdev.");
+            "begin with js have the records of a joystick, others those of evdev.");
     s.param("DeadZone", &T::dead_zone)
         .label("Dead zone")
         .range(0, 1)
@@ -46,10 +45,8 @@ void GamepadModule::describe(ModuleSpec<GamepadModule>& s) {
               })
         .doc(
             "A row per axis: how far it is left or up, and how far it is right or down, 0 to 1. Of evdev, "
-            "the rows are: left stick "
-            "x and y, right stick x and y, left and right trigger, hat x and y; of a joystick, the axes as "
-            "its driver "
-            "counts them.");
+            "the rows are: left stick x and y, right stick x and y, left and right trigger, hat x and y; of "
+            "a joystick, the axes as its driver counts them.");
     s.output("Buttons", "Buttons")
         .optional()
         .doc("A cell per button, from the first: 1 while it is pressed.");

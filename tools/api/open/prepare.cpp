@@ -81,8 +81,7 @@ void clear_directory(const RunSpec& spec, Diagnostics& diagnostics) {
         return diagnostics.error(
             {}, fmt::format("'{}' holds the checkpoint of a run that has not finished", directory),
             fmt::format("'forage resume {}' continues that run; --discard-checkpoint gives it up, and -o "
-                        "names another "
-                        "directory",
+                        "names another directory",
                         directory));
     remove_checkpoints(directory);
     const auto removed = remove_unfinished(directory);

@@ -55,10 +55,9 @@ bool save(Archive& archive, const Observer& observer) {
         archive(count);
         for (auto& m : specs) keep(archive, m);
     } else {
-        throw InputError(
-            "this run cannot be saved as a whole, because of one of its observers",
-            "recordings in memory, manipulations without conditions and measures can be saved; of "
-            "other runs, save the state with Run::checkpoint()");
+        throw InputError("this run cannot be saved as a whole, because of one of its observers",
+                         "recordings in memory, manipulations without conditions and measures can be saved; "
+                         "of other runs, save the state with Run::checkpoint()");
     }
     return true;
 }

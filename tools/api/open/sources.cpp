@@ -154,15 +154,14 @@ void check_drivers(const Registry& registry, model::System& system, bool has_wor
         const auto first =
             std::find_if(drivers.begin(), d, [&](const auto& other) { return other.robot == d->robot; });
         if (first == d) continue;
-        diagnostics.add(
-            {has_world ? Severity::error : Severity::warning,
-             d->at,
-             fmt::format("two modules drive the robot '{}': those of '{}' and '{}'", d->robot,
-                         model::trim(first->process->name), model::trim(d->process->name)),
-             "each needs a robot of its own: --robot NAME=ROBOT, or <bind> in an experiment, binds "
-             "one of them to another robot",
-             {},
-             {}});
+        diagnostics.add({has_world ? Severity::error : Severity::warning,
+                         d->at,
+                         fmt::format("two modules drive the robot '{}': those of '{}' and '{}'", d->robot,
+                                     model::trim(first->process->name), model::trim(d->process->name)),
+                         "each needs a robot of its own: --robot NAME=ROBOT, or <bind> in an experiment, "
+                         "binds one of them to another robot",
+                         {},
+                         {}});
     }
 }
 
