@@ -22,7 +22,7 @@ const std::array<std::string, 3> known_plugins = {"libvel_plugin.so", "libreset_
 void check_plugins(const Model& model, Diagnostics& diagnostics) {
     const bool robot = robot_link(model);
     for (const Plugin& p : model.plugins) {
-        if (std::find(known_plugins.begin(), known_plugins.end(), p.filename) == known_plugins.end()) {
+        if (std::ranges::find(known_plugins, p.filename) == known_plugins.end()) {
             const auto near = nearest(p.filename, known_plugins);
             diagnostics.warning(
                 p.where, fmt::format("plugin '{}' is not known and has no effect", p.filename),
@@ -42,8 +42,7 @@ void check_plugins(const Model& model, Diagnostics& diagnostics) {
                                 "a resource is a model that can be pushed");
         }
     }
-    const bool body =
-        std::any_of(model.links.begin(), model.links.end(), [](const Link& l) { return l.name == "bug"; });
+    const bool body = std::ranges::any_of(model.links, [](const Link& l) { return l.name == "bug"; });
     if (body && !robot)
         diagnostics.warning(model.where,
                             fmt::format("'{}' has a link 'bug', but no plugin that drives it", model.name),
@@ -112,7 +111,7 @@ void check_homes(const WorldDescription& world, Diagnostics& diagnostics) {
 void check_starts(const WorldDescription& world, Diagnostics& diagnostics) {
     const Model* start = find_model(world, "Reset_0");
     const auto robots = [&](bool with_reset) {
-        return std::any_of(world.models.begin(), world.models.end(), [&](const Model& m) {
+        return std::ranges::any_of(world.models, [&](const Model& m) {
             return robot_link(m) && (!with_reset || has_plugin(m, "libreset_plugin.so"));
         });
     };

@@ -15,7 +15,7 @@ void Transceiver::transmit(std::string_view new_key, std::span<const double> cel
     if (key != new_key) key = new_key;
     has_key = true, position = sender_pose;
     const bool was_audible = audible;
-    audible = std::any_of(cells.begin(), cells.end(), [](double v) { return v > silence; });
+    audible = std::ranges::any_of(cells, [](double v) { return v > silence; });
     transmitting = audible || was_audible;
     message.fill(0);
     if (audible) std::copy_n(cells.begin(), std::min(cells.size(), message.size()), message.begin());

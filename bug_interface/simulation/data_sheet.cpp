@@ -125,7 +125,7 @@ std::string angle_section(const RobotSensors& sensors) {
             return other.rays == s.rays && other.first_angle == s.first_angle &&
                    other.last_angle == s.last_angle;
         };
-        if (std::any_of(done.begin(), done.end(), [&](const auto* other) { return same(*other); })) continue;
+        if (std::ranges::any_of(done, [&](const auto* other) { return same(*other); })) continue;
         done.push_back(&s);
         std::string names;
         for (const RangeSensor& other : sensors.range_sensors())

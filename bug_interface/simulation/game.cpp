@@ -112,8 +112,7 @@ void Game::advance_second(Physics& physics) {
 
 /// Places a removed resource near a site, unless there is no such resource or the position is occupied.
 void Game::spawn(Physics& physics, const GameSite& site, std::uint32_t draw) {
-    const auto free =
-        std::find_if(resources_.begin(), resources_.end(), [](const Resource& r) { return r.removed; });
+    const auto free = std::ranges::find_if(resources_, &Resource::removed);
     if (free == resources_.end()) return;
     const double angle = 2 * std::numbers::pi * random_.uniform(seconds_begun_, 2 * draw, position),
                  radius = spread * random_.uniform(seconds_begun_, 2 * draw + 1, position);
@@ -135,9 +134,8 @@ int Game::points(int team) const {
 }
 
 int Game::delivered(int team, bool good) const {
-    return static_cast<int>(std::count_if(deliveries_.begin(), deliveries_.end(), [&](const Delivery& d) {
-        return d.team == team && d.good == good;
-    }));
+    return static_cast<int>(std::ranges::count_if(
+        deliveries_, [&](const Delivery& d) { return d.team == team && d.good == good; }));
 }
 
 }  // namespace forage::bug

@@ -17,8 +17,8 @@ Robot::Robot(const Model& model, std::size_t robot_number, std::uint64_t seed, b
       motor_noise(robot_stream(seed, name, RobotStream::motor_noise)),
       sensors(*robot_link(model), name, number, seed, noise) {
     const Link& link = *robot_link(model);
-    const auto disc = std::find_if(link.collisions.begin(), link.collisions.end(),
-                                   [](const Collision& c) { return c.shape.kind == ShapeKind::cylinder; });
+    const auto disc = std::ranges::find_if(
+        link.collisions, [](const Collision& c) { return c.shape.kind == ShapeKind::cylinder; });
     if (disc == link.collisions.end()) {
         diagnostics.error(link.where,
                           fmt::format("the body of robot '{}' has no cylinder as its collision shape", name),

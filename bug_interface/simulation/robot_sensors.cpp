@@ -26,8 +26,7 @@ std::optional<RobotSensors::Scan> RobotSensors::make_scan(std::string_view senso
                                                           std::span<const Solid> fixed,
                                                           std::span<const MovingSolid> moving, double step,
                                                           std::vector<double>& cells) const {
-    const auto found = std::find_if(range_sensors_.begin(), range_sensors_.end(),
-                                    [&](const RangeSensor& s) { return s.name == sensor; });
+    const auto found = std::ranges::find(range_sensors_, sensor, &RangeSensor::name);
     if (found == range_sensors_.end()) return {};
     Scan scan{RangeScanner(*found, link_pose_),
               robot_stream(seed_, robot_, use),
@@ -167,7 +166,7 @@ std::size_t RobotSensors::find_visible(const BodyPoses& poses, MovingVisuals& vi
     near_.clear();
     poses.places.visit(camera_->view_area(poses.bodies[body_]),
                        [&](std::size_t body) { near_.push_back(body); });
-    std::sort(near_.begin(), near_.end());  // the order decides between surfaces at the same depth
+    std::ranges::sort(near_);  // the order decides between surfaces at the same depth
     for (const std::size_t body : near_) {
         if (!poses.present[body]) continue;
         for (const MovingVisual& v : visuals.of(body, poses))

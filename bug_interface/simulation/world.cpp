@@ -55,7 +55,7 @@ bool World::every_substep_matters(std::uint64_t steps) const {
     double pushed = 0;  // another robot may push a robot at most twice as far as the fastest one drives
     if (bodies_.size() > 1)
         for (const Robot& robot : robots_) pushed = std::max(pushed, 2 * travel(robot));
-    return std::any_of(robots_.begin(), robots_.end(), [&](const Robot& robot) {
+    return std::ranges::any_of(robots_, [&](const Robot& robot) {
         if (!robot.reset) return false;
         if (robot.reset->running() || is_over(robot.number)) return true;
         if (description_.trials && may_reach_target(robot.number, steps)) return true;
@@ -86,9 +86,8 @@ void World::move_bodies(std::uint64_t steps) {
 void World::move_island(std::size_t island, std::uint64_t steps) {
     const auto bodies = physics_->island(island);
     const auto is_robot = [this](std::size_t body) { return body < robots_.size(); };
-    const bool by_substep = std::any_of(bodies.begin(), bodies.end(), [&](std::size_t i) {
-        return is_robot(i) && may_reach_target(i, steps);
-    });
+    const bool by_substep =
+        std::ranges::any_of(bodies, [&](std::size_t i) { return is_robot(i) && may_reach_target(i, steps); });
     if (physics_->is_free(island) && !by_substep) {
         const std::size_t body = bodies.front();
         if (!is_robot(body)) return physics_->move_freely(island);
@@ -116,9 +115,8 @@ bool World::may_reach_target(std::size_t bug, std::uint64_t steps) const {
     const double near = near_target + (std::abs(robots_[bug].command.forward) + speed_noise) *
                                           static_cast<double>(steps) * description_.step;
     const Eigen::Vector2d at(physics_->pose(bug).x, physics_->pose(bug).y);
-    return std::any_of(targets_.begin(), targets_.end(), [&](const Eigen::Vector2d& target) {
-        return (target - at).squaredNorm() < near * near;
-    });
+    return std::ranges::any_of(
+        targets_, [&](const Eigen::Vector2d& target) { return (target - at).squaredNorm() < near * near; });
 }
 
 /// The mean velocity of a robot in `steps` substeps from number `substep` on, with noise.

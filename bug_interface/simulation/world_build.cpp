@@ -98,8 +98,8 @@ bool World::build(Diagnostics& diagnostics) {
         transceivers_.push_back(&robot.transceiver);
         by_name_.push_back(i);
     }
-    std::sort(by_name_.begin(), by_name_.end(),
-              [&](std::size_t a, std::size_t b) { return robots_[a].name < robots_[b].name; });
+    std::ranges::sort(by_name_,
+                      [&](std::size_t a, std::size_t b) { return robots_[a].name < robots_[b].name; });
     update_body_poses();
     return true;
 }
@@ -145,8 +145,8 @@ void World::add_movable_objects(Diagnostics& diagnostics) {
     for (const Model& model : description_.models)
         if (is_movable(model)) movable.push_back(model);
     if (description_.game) {
-        const auto has = std::count_if(movable.begin(), movable.end(),
-                                       [](const Model& m) { return has_plugin(m, "libtarget_plugin.so"); });
+        const auto has = std::ranges::count_if(
+            movable, [](const Model& m) { return has_plugin(m, "libtarget_plugin.so"); });
         for (int i = static_cast<int>(has); i < description_.game->most; ++i) movable.push_back(resource(i));
     }
     for (const Model& model : movable) {

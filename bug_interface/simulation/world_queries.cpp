@@ -28,14 +28,12 @@ void for_each_static_solid(const WorldDescription& world, F&& visit) {
 }  // namespace
 
 bool has_plugin(const Model& model, std::string_view filename) {
-    return std::any_of(model.plugins.begin(), model.plugins.end(),
-                       [&](const Plugin& p) { return p.filename == filename; });
+    return std::ranges::any_of(model.plugins, [&](const Plugin& p) { return p.filename == filename; });
 }
 
 const Link* robot_link(const Model& model) {
     if (!has_plugin(model, "libvel_plugin.so")) return nullptr;
-    const auto link =
-        std::find_if(model.links.begin(), model.links.end(), [](const Link& l) { return l.name == "bug"; });
+    const auto link = std::ranges::find(model.links, "bug", &Link::name);
     return link == model.links.end() ? nullptr : &*link;
 }
 

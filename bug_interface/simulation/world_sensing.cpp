@@ -7,8 +7,7 @@ namespace forage::bug {
 /// Updates the sensors with rates of their own in the first substep in which they are due.
 void World::sense_due() {
     const double now = static_cast<double>(substep_ + 1) * description_.step;
-    if (std::none_of(robots_.begin(), robots_.end(), [&](const Robot& r) { return r.sensors.due(now); }))
-        return;
+    if (std::ranges::none_of(robots_, [&](const Robot& r) { return r.sensors.due(now); })) return;
     update_body_poses();
     for (Robot& robot : robots_) robot.sensors.sense_due(now, body_poses_, visuals());
 }
@@ -21,9 +20,7 @@ void World::scan() {
 
 /// Delivers the messages that were transmitted in the cycle that ends.
 void World::exchange_messages() {
-    if (std::none_of(robots_.begin(), robots_.end(),
-                     [](const Robot& r) { return r.transceiver.transmitting; }))
-        return;
+    if (std::ranges::none_of(robots_, [](const Robot& r) { return r.transceiver.transmitting; })) return;
     deliver(transceivers_, body_poses_.bodies, by_name_);
     for (Robot& robot : robots_) robot.sensors.receive(sum_received(robot.transceiver, by_name_));
 }

@@ -75,13 +75,13 @@ std::vector<std::string> ModelFolders::names() const {
             if (fs::exists(entry->path() / "model.config", ignored))
                 names.push_back(entry->path().filename().string());
     }
-    std::sort(names.begin(), names.end());
+    std::ranges::sort(names);
     names.erase(std::unique(names.begin(), names.end()), names.end());
     return names;
 }
 
 std::string ModelFolders::hint(std::string_view uri, const std::vector<std::string>& names) {
-    if (!uri.starts_with(scheme) && std::find(names.begin(), names.end(), uri) != names.end())
+    if (!uri.starts_with(scheme) && std::ranges::find(names, uri) != names.end())
         return fmt::format("write {}{}", scheme, uri);
     const std::string name(uri.starts_with(scheme) ? uri.substr(scheme.size()) : uri);
     std::vector<std::string> near;

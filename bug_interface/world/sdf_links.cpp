@@ -73,7 +73,7 @@ void check_joints(SdfSource& in, const Model& model) {
     collect(model, collect);
     for (const Hinge& hinge : model.hinges)
         for (const std::string& name : {hinge.parent, hinge.child})
-            if (std::find(links.begin(), links.end(), name.substr(name.rfind(':') + 1)) == links.end())
+            if (std::ranges::find(links, name.substr(name.rfind(':') + 1)) == links.end())
                 in.diagnostics.error(
                     hinge.where,
                     fmt::format("joint '{}' does not name a link of its model: '{}'", hinge.name, name),

@@ -19,7 +19,7 @@ void read_sensor(SdfSource& in, const xml::Element& e, Link& link) {
     if (type == "ray") {
         RangeSensor s;
         s.where = e.where(), s.name = e["name"].text(), s.pose = in.pose_of(e);
-        if (std::find(known_rays.begin(), known_rays.end(), s.name) == known_rays.end())
+        if (std::ranges::find(known_rays, s.name) == known_rays.end())
             in.diagnostics.warning(s.where,
                                    fmt::format("no group gets what a ray sensor called '{}' sees", s.name),
                                    suggest(s.name, known_rays));

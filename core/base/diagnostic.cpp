@@ -95,7 +95,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 
 Location location_of(std::shared_ptr<const SourceFile> file, std::size_t offset) {
     const std::string_view before = std::string_view(file->text).substr(0, offset);
-    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const auto line = 1 + std::ranges::count(before, '\n');
     const auto column = before.size() - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
     return {std::move(file), static_cast<int>(line), static_cast<int>(column)};
 }
@@ -119,7 +119,7 @@ std::string format(const Diagnostic& d) {
 std::string format(const Diagnostics& diagnostics) {
     std::vector<const Diagnostic*> order;
     for (const auto& d : diagnostics.all()) order.push_back(&d);
-    std::stable_sort(order.begin(), order.end(), [](const Diagnostic* a, const Diagnostic* b) {
+    std::ranges::stable_sort(order, [](const Diagnostic* a, const Diagnostic* b) {
         if (a->where.file != b->where.file) return false;  // files keep the order in which they were read
         return std::pair(a->where.line, a->where.column) < std::pair(b->where.line, b->where.column);
     });

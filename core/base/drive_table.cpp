@@ -54,8 +54,7 @@ DriveTable DriveTable::parse(std::string_view text, const std::string& name) {
         if (!in.fields()[0].starts_with("cycle")) table.rows_.push_back(parse_row(in));
     in.require_sound();
     if (table.rows_.empty()) in.refuse("there are no rows in it", form);
-    std::stable_sort(table.rows_.begin(), table.rows_.end(),
-                     [](const Row& a, const Row& b) { return a.cycle < b.cycle; });
+    std::ranges::stable_sort(table.rows_, [](const Row& a, const Row& b) { return a.cycle < b.cycle; });
     return table;
 }
 

@@ -21,7 +21,7 @@ std::string near_file(const fs::path& path) {
          entry.increment(error))
         if (entry->path().extension() == path.extension())
             siblings.push_back(entry->path().filename().string());
-    std::sort(siblings.begin(), siblings.end());
+    std::ranges::sort(siblings);
     const auto near = nearest(path.filename().string(), siblings);
     return near.empty() ? "" : fmt::format("did you mean '{}'?", (folder / near).string());
 }

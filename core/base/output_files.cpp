@@ -55,7 +55,7 @@ std::vector<std::string> remove_unfinished(const std::string& directory) {
         const bool ours = entry.is_regular_file(none) || kind == ".npz";  // archives grow in a folder
         if (name.extension() == ".part" && ours && kinds.contains(kind)) out.push_back(name.string());
     }
-    std::sort(out.begin(), out.end());
+    std::ranges::sort(out);
     for (const auto& name : out) fs::remove_all(fs::path(directory) / name, none);
     return out;
 }

@@ -40,7 +40,7 @@ bool TableReader::read_header() {
 }
 
 std::size_t TableReader::column(std::string_view name) {
-    const auto found = std::find(columns_.begin(), columns_.end(), name);
+    const auto found = std::ranges::find(columns_, name);
     if (found != columns_.end()) return static_cast<std::size_t>(found - columns_.begin());
     refuse(row_, fmt::format("there is no column '{}'", name), suggest(name, columns_));
 }
@@ -122,7 +122,7 @@ void TableReader::split() {
 
 std::pair<int, int> TableReader::place(std::string_view piece) const {
     const auto before = line_.substr(0, static_cast<std::size_t>(piece.data() - line_.data()));
-    return {number_ + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+    return {number_ + static_cast<int>(std::ranges::count(before, '\n')),
             static_cast<int>(before.size() - (before.rfind('\n') + 1)) + 1};  // npos + 1 is 0
 }
 

@@ -52,7 +52,7 @@ Diagnostic refusal(const std::string& path, int error) {
 /// The error at the byte `at`.
 Diagnostic error_in(std::string_view text, std::size_t at, std::string message, std::string hint) {
     const std::string_view before = text.substr(0, at);
-    return error_at(1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+    return error_at(1 + static_cast<int>(std::ranges::count(before, '\n')),
                     static_cast<int>(at - (before.rfind('\n') + 1)) + 1,  // npos + 1 is 0
                     std::move(message), std::move(hint));
 }

@@ -21,7 +21,7 @@ void evaluate(const model::DistanceFunction& function, std::span<const double> d
         for (std::size_t i = 0; i < n; ++i) take(i, value);
     } else if (const auto* linear = std::get_if<model::LinearFunction>(&function.form)) {
         const double min = bound(linear->min), max = bound(linear->max);
-        const double farthest = distances.empty() ? 0 : *std::max_element(distances.begin(), distances.end());
+        const double farthest = distances.empty() ? 0 : *std::ranges::max_element(distances);
         const double slope = (max - min) / farthest;
         for (std::size_t i = 0; i < n; ++i) take(i, slope * distances[i] + min);
     } else if (const auto* gaussian = std::get_if<model::GaussianFunction>(&function.form)) {
@@ -59,7 +59,7 @@ Attenuation attenuation(const model::DistanceFunction& function, std::span<const
     } else if (const auto* block = std::get_if<model::BlockFunction>(&function.form)) {
         out.reference = std::max(six_digits(block->min), six_digits(block->max));
     } else if (std::holds_alternative<model::GaussianFunction>(function.form) && !out.values.empty()) {
-        out.reference = *std::max_element(out.values.begin(), out.values.end());
+        out.reference = *std::ranges::max_element(out.values);
     }
     return out;
 }

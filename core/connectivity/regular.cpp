@@ -47,8 +47,8 @@ std::vector<Offset> offsets(const model::Arborization& arborization) {
 /// of cells.
 void turn_round(std::vector<Offset>& offsets) {
     for (auto& o : offsets) o = {-o.x, -o.y};
-    std::sort(offsets.begin(), offsets.end(),
-              [](const Offset& a, const Offset& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
+    std::ranges::sort(offsets,
+                      [](const Offset& a, const Offset& b) { return a.y != b.y ? a.y < b.y : a.x < b.x; });
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace {
 
 template <class Items>
 auto find_in(Items& items, std::string_view id) -> decltype(&items.front()) {
-    const auto it = std::find_if(items.begin(), items.end(), [&](const auto& item) { return item.id == id; });
+    const auto it = std::ranges::find_if(items, [&](const auto& item) { return item.id == id; });
     return it == items.end() ? nullptr : &*it;
 }
 
@@ -148,8 +148,7 @@ void forget_phantoms(System& system) {
 }
 
 void set_parameter(TypeUse& use, std::string name, std::string value) {
-    const auto it =
-        std::find_if(use.settings.begin(), use.settings.end(), [&](const auto& s) { return s.name == name; });
+    const auto it = std::ranges::find(use.settings, name, &Setting::name);
     if (it == use.settings.end())
         use.settings.push_back({std::move(name), std::move(value), {}, {}});
     else
@@ -195,8 +194,7 @@ std::string make_ids_unique(const System& system, std::span<Process> processes,
     for (auto& c : connections) ids.push_back(&c.id);
     std::string prefix;
     const auto clashes = [&] {
-        return std::any_of(ids.begin(), ids.end(),
-                           [&](const auto* id) { return taken.contains(prefix + *id); });
+        return std::ranges::any_of(ids, [&](const auto* id) { return taken.contains(prefix + *id); });
     };
     for (int n = 1; prefix.empty() || clashes(); ++n) prefix = fmt::format("CB{}", n);
     for (const auto& c : connections)
@@ -245,8 +243,7 @@ void join(System& system, System other) {
     for (auto& c : other.canvas_comments) ids.push_back(&c.id);
     std::string prefix;
     const auto clashes = [&] {
-        return std::any_of(ids.begin(), ids.end(),
-                           [&](const auto* id) { return taken.contains(prefix + *id); });
+        return std::ranges::any_of(ids, [&](const auto* id) { return taken.contains(prefix + *id); });
     };
     for (int n = 2; clashes(); ++n) prefix = fmt::format("S{}_", n);
     for (auto* id : ids) *id = prefix + *id;
@@ -254,8 +251,8 @@ void join(System& system, System other) {
         if (!reference->empty()) *reference = prefix + *reference;
 
     const auto named = [&](const std::string& name) {
-        return std::any_of(system.processes.begin(), system.processes.end(),
-                           [&](const auto& p) { return trim(p.name) == trim(name); });
+        return std::ranges::any_of(system.processes,
+                                   [&](const auto& p) { return trim(p.name) == trim(name); });
     };
     for (auto& p : other.processes) {
         const std::string name(trim(p.name));
@@ -267,8 +264,7 @@ void join(System& system, System other) {
 }
 
 ProcessFile extract_process(const System& system, std::string_view id) {
-    const auto it = std::find_if(system.processes.begin(), system.processes.end(),
-                                 [&](const auto& p) { return p.id == id; });
+    const auto it = std::ranges::find(system.processes, id, &Process::id);
     if (it == system.processes.end()) no_item("process", id);
     ProcessFile out{*it, {}};
     out.process.path.clear();

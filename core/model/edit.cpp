@@ -98,8 +98,7 @@ std::optional<Assignment> resolve(const System& system, const Registry& registry
                        owner.use ? fmt::format("the type '{}' is not known", owner.use->type)
                                  : "this process has no module",
                        "");
-    const auto it = std::find_if(owner.parameters->begin(), owner.parameters->end(),
-                                 [&name = parameter.text](const auto& p) { return p.name == name; });
+    const auto it = std::ranges::find(*owner.parameters, parameter.text, &Parameter::name);
     if (it == owner.parameters->end()) {
         std::vector<std::string> known;
         for (const auto& p : *owner.parameters) known.push_back(p.name);
@@ -113,7 +112,7 @@ std::optional<Assignment> resolve(const System& system, const Registry& registry
 
 template <class Items>
 auto& with_id(Items& items, std::string_view id) {
-    return *std::find_if(items.begin(), items.end(), [&](const auto& item) { return item.id == id; });
+    return *std::ranges::find_if(items, [&](const auto& item) { return item.id == id; });
 }
 
 /// The use of a type that has the parameter.

@@ -28,7 +28,7 @@ void check_adaptation(const Experiment& e, Diagnostics& diagnostics) {
     if (!e.adaptation) return;
     const Adaptation& a = *e.adaptation;
     const auto named = [&](const Measure& m) { return m.name == a.measure.text; };
-    if (!a.measure.empty() && std::none_of(e.measures.begin(), e.measures.end(), named)) {
+    if (!a.measure.empty() && std::ranges::none_of(e.measures, named)) {
         std::vector<std::string> names;
         for (const auto& m : e.measures) names.push_back(m.name);
         diagnostics.error(a.measure.at, fmt::format("there is no measure '{}'", a.measure.text),

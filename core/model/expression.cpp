@@ -533,7 +533,7 @@ Plot parse_plot(std::string_view text) {
     Plot out;
     const auto end = std::min(text.find_first_of(":@;"), text.size());
     const auto kind = trim(text.substr(0, end));
-    const auto found = std::find(plots.begin(), plots.end(), kind);
+    const auto found = std::ranges::find(plots, kind);
     if (found == plots.end())
         Parser::fail(fmt::format("there is no plot '{}'", kind),
                      suggest(kind, std::vector<std::string>(plots.begin(), plots.end())), 0);

@@ -20,7 +20,7 @@ GroupShape shape(const Topology& topology) {
         places.emplace_back(p.x, p.y);
     }
     if (places.empty()) return {};
-    std::sort(places.begin(), places.end());
+    std::ranges::sort(places);
     const auto end = std::unique(places.begin(), places.end());
     return {max_x - min_x + 1, max_y - min_y + 1, static_cast<int>(end - places.begin())};
 }

@@ -17,8 +17,7 @@ namespace forage::model {
 namespace {
 
 const Parameter* find_parameter(const std::vector<Parameter>& parameters, std::string_view name) {
-    const auto it =
-        std::find_if(parameters.begin(), parameters.end(), [&](const auto& p) { return p.name == name; });
+    const auto it = std::ranges::find(parameters, name, &Parameter::name);
     return it == parameters.end() ? nullptr : &*it;
 }
 
@@ -252,7 +251,7 @@ class Validator {
                 ModulePort port;
                 port.name = r.name;
                 ports.push_back(port);
-            } else if (std::find(known.begin(), known.end(), r.name) == known.end()) {
+            } else if (std::ranges::find(known, r.name) == known.end()) {
                 meant.push_back(nearest(r.name, known));
                 out_.unknown(
                     r.at, fmt::format("{} has no cross reference '{}' in {}", use.type, r.name, holder),
@@ -265,13 +264,12 @@ class Validator {
                            near_id(r.target));
         }
         for (const auto& port : ports) {
-            const auto it = std::find_if(references.begin(), references.end(),
-                                         [&](const auto& r) { return r.name == port.name; });
+            const auto it = std::ranges::find(references, port.name, &CrossReference::name);
             const bool set = it != references.end() && !it->target.empty();
             found.push_back({port.name, {}, {}});
             if (!set) {
                 const bool misspelt =
-                    it == references.end() && std::find(meant.begin(), meant.end(), port.name) != meant.end();
+                    it == references.end() && std::ranges::find(meant, port.name) != meant.end();
                 if (enabled && !port.optional && !(misspelt && !out_.lenient))
                     out_.add({Severity::error,
                               it == references.end() ? use.at : it->at,
@@ -420,7 +418,7 @@ class Validator {
         std::vector<std::string> known;
         for (const auto& f : type.feedback) known.push_back(f.name);
         for (const auto& r : use.feedback)
-            if (std::find(known.begin(), known.end(), r.name) == known.end())
+            if (std::ranges::find(known, r.name) == known.end())
                 out_.unknown(r.at, fmt::format("{} has no feedback input '{}'", use.type, r.name),
                              known.empty() ? fmt::format("{} has none", use.type) : suggest(r.name, known));
         const NeuronType* neuron = target ? registry_.neuron(target->neuron.type) : nullptr;
@@ -428,8 +426,7 @@ class Validator {
         std::vector<std::string> states;
         for (const auto& s : neuron->states) states.push_back(s.name);
         for (const auto& f : type.feedback) {
-            const auto it = std::find_if(use.feedback.begin(), use.feedback.end(),
-                                         [&](const auto& r) { return r.name == f.name; });
+            const auto it = std::ranges::find(use.feedback, f.name, &CrossReference::name);
             if (it == use.feedback.end() || it->target.empty()) {
                 if (f.required)
                     out_.add(
@@ -440,7 +437,7 @@ class Validator {
                                      neuron->name, separated(states, ", ")),
                          {},
                          f.name});
-            } else if (std::find(states.begin(), states.end(), it->target) == states.end()) {
+            } else if (std::ranges::find(states, it->target) == states.end()) {
                 out_.error(it->at, fmt::format("{} has no state '{}'", neuron->name, it->target),
                            suggest(it->target, states));
             }

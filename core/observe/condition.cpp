@@ -73,10 +73,7 @@ double Quantity::in(const engine::Simulation& simulation, const SimTime& now) co
     return kind == Kind::mean ? out / static_cast<double>(numbers.size()) : out;
 }
 
-bool Condition::sees_cells() const {
-    return std::any_of(quantities_.begin(), quantities_.end(),
-                       [](const Quantity& q) { return q.sees_cells(); });
-}
+bool Condition::sees_cells() const { return std::ranges::any_of(quantities_, &Quantity::sees_cells); }
 
 bool Condition::holds(const Node& n, const engine::Simulation& simulation, const SimTime& now) const {
     using Operator = expression::Condition::Operator;

@@ -41,13 +41,12 @@ class ManipulationReader {
     }
 
     std::vector<std::unique_ptr<Manipulation>> made() {
-        std::stable_sort(made_.begin(), made_.end(), [](const Made& a, const Made& b) {
+        std::ranges::stable_sort(made_, [](const Made& a, const Made& b) {
             return std::pair(a.spec->mode, a.rows.empty()) < std::pair(b.spec->mode, b.rows.empty());
         });
         std::vector<std::unique_ptr<Manipulation>> out;
         for (auto& m : made_) {
-            std::stable_sort(m.rows.begin(), m.rows.end(),
-                             [](const Row& a, const Row& b) { return a.first < b.first; });
+            std::ranges::stable_sort(m.rows, {}, &Row::first);
             for (auto& [start, values] : m.rows) {
                 m.settings.starts.push_back(start);
                 m.settings.patterns.push_back(std::move(values));

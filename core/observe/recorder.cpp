@@ -21,7 +21,7 @@ void Recorder::record(const engine::Simulation& simulation) {
         sample(simulation);
         return add(cycle, numbers_);
     }
-    if (place == 0) std::fill(sums_.begin(), sums_.end(), 0), summed_ = 0;
+    if (place == 0) std::ranges::fill(sums_, 0), summed_ = 0;
     sample(simulation);
     for (std::size_t i = 0; i < sums_.size(); ++i) sums_[i] += numbers_[i];
     if (++summed_ < sampling_.every) return;

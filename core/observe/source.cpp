@@ -119,7 +119,7 @@ void Source::read(const engine::Simulation& simulation, std::span<double> out) c
             out[0] = mean_of(all(simulation));
             return;
         }
-        std::fill(out.begin(), out.end(), std::numeric_limits<double>::quiet_NaN());
+        std::ranges::fill(out, std::numeric_limits<double>::quiet_NaN());
         for_each_synapse(simulation, column, what().cells, [&](int x, int y, double v) {
             double& place = out[static_cast<std::size_t>(y) * static_cast<std::size_t>(what().cells.width) +
                                 static_cast<std::size_t>(x)];

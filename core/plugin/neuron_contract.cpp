@@ -63,7 +63,7 @@ Trial try_cells(const NeuronType& type, const Given& given) {
         neuron->update(all);
         for (const auto& s : states) out.numbers.insert(out.numbers.end(), s.ring, s.ring + cells * s.depth);
     }
-    out.intact = std::all_of(buffers.begin(), buffers.end(), [](const auto& b) { return b.intact(); });
+    out.intact = std::ranges::all_of(buffers, &GuardedBuffer::intact);
     return out;
 }
 

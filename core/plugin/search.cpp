@@ -21,7 +21,7 @@ class Found {
         std::vector<fs::path> files;
         for (const auto& entry : fs::directory_iterator(path, ignored))
             if (entry.path().extension() == ".so") files.push_back(entry.path());
-        std::sort(files.begin(), files.end());
+        std::ranges::sort(files);
         for (const auto& file : files) add_file(file);
         return !files.empty();
     }

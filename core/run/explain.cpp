@@ -62,7 +62,7 @@ struct Wiring {
 };
 
 bool reads_input(const NeuronType& type) {
-    return std::any_of(type.reads.begin(), type.reads.end(), [](bool reads) { return reads; });
+    return std::ranges::any_of(type.reads, [](bool reads) { return reads; });
 }
 
 class Explainer {
@@ -121,14 +121,14 @@ class Explainer {
         std::vector<std::size_t> out;
         for (const int c : wiring_.groups[g].incoming)
             if (const auto& connection = layout_.connections[at(c)]; connection.kind == InputKind::excitatory)
-                if (const auto s = at(connection.source); std::find(out.begin(), out.end(), s) == out.end())
+                if (const auto s = at(connection.source); std::ranges::find(out, s) == out.end())
                     out.push_back(s);
         return out;
     }
     /// Whether the silence of a group is not explained by the silence of all its sources.
     bool is_first(std::size_t g) const {
         const auto from = sources(g);
-        return from.empty() || std::any_of(from.begin(), from.end(), [&](auto s) { return !silent(s); }) ||
+        return from.empty() || std::ranges::any_of(from, [&](auto s) { return !silent(s); }) ||
                !wiring_.groups[g].writers.empty();
     }
 
@@ -222,7 +222,7 @@ class Explainer {
         std::vector<std::string> names;
         for (std::size_t step = first; step != from; step = next.at(step)) names.push_back(name(step));
         names.push_back(name(from));
-        std::reverse(names.begin(), names.end());
+        std::ranges::reverse(names);
         return fmt::format("{}. {} is the first silent group on the way back: ", separated(names, " <- "),
                            name(first));
     }

@@ -81,8 +81,7 @@ void write_results(PreparedRun& p, RunOutcome& outcome) {
     files.write("run.json", [&] { return run_json(p, outcome); });
     const auto written = files.names();
     for (const auto& name : earlier ? earlier->files : std::vector<std::string>())
-        if (std::find(written.begin(), written.end(), name) == written.end())
-            std::remove(files.path(name).c_str());
+        if (std::ranges::find(written, name) == written.end()) std::remove(files.path(name).c_str());
 }
 
 }  // namespace
@@ -93,8 +92,7 @@ RunOutcome run_to_end(PreparedRun& p, const RunCallbacks& callbacks) {
     out.first_cycle = p.run.cycle();
     const auto begun = Clock::now();
     const auto problem = [&](const std::string& text) {
-        if (std::find(out.problems.begin(), out.problems.end(), text) == out.problems.end())
-            out.problems.push_back(text);
+        if (std::ranges::find(out.problems, text) == out.problems.end()) out.problems.push_back(text);
     };
     try {
         out.stopped = loop(p, callbacks);

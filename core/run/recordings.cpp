@@ -56,9 +56,9 @@ std::vector<std::string> groups_of(const std::string& text, const engine::Layout
     std::vector<std::string> out;
     for (const auto& g : layout.groups) {
         const auto& states = g.type.states;
-        const bool has = state.empty() || state.ends_with("In") ||
-                         std::any_of(states.begin(), states.end(),
-                                     [&](const auto& s) { return s.name == state.substr(1); });
+        const bool has =
+            state.empty() || state.ends_with("In") ||
+            std::ranges::any_of(states, [&](const auto& s) { return s.name == state.substr(1); });
         if (g.path.starts_with(process) && has) out.push_back("#" + g.id + state);
     }
     return out.empty() ? std::vector{text} : out;  // which is then reported as unknown
@@ -71,7 +71,7 @@ std::vector<RecordingFile> recorded_files(const std::vector<model::RecordingSpec
                                           Diagnostics& diagnostics) {
     std::vector<RecordingFile> out;
     const auto find = [&](const std::string& name) {
-        return std::find_if(out.begin(), out.end(), [&](const auto& f) { return f.name == name; });
+        return std::ranges::find(out, name, &RecordingFile::name);
     };
     std::set<std::string> seen;
     for (const auto& asked : recordings) {
@@ -231,7 +231,7 @@ void Recordings::finish(RunView& run, ResultFiles& files) {
 std::vector<std::string> Recordings::file_names() const {
     std::vector<std::string> out;
     for (const auto& e : entries_)
-        if (std::find(out.begin(), out.end(), e.file) == out.end()) out.push_back(e.file);
+        if (std::ranges::find(out, e.file) == out.end()) out.push_back(e.file);
     return out;
 }
 

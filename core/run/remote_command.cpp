@@ -51,8 +51,7 @@ bool same_word(std::string_view a, std::string_view b) {
 
 template <class Table>
 auto find_word(const Table& table, std::string_view word) {
-    return std::find_if(table.begin(), table.end(),
-                        [&](const auto& entry) { return same_word(entry.first, word); });
+    return std::ranges::find_if(table, [&](const auto& entry) { return same_word(entry.first, word); });
 }
 
 template <class Table>

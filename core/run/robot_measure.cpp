@@ -21,12 +21,12 @@ std::optional<RobotMeasure> RobotMeasure::make(const model::Measure& m, Environm
         return std::nullopt;
     };
     const auto& all = model::robot_quantities;
-    const auto what = std::find(all.begin(), all.end(), m.what.text) - all.begin();
+    const auto what = std::ranges::find(all, m.what.text) - all.begin();
     if (what == std::ssize(all))
         return fail(m.what.at, fmt::format("'{}' is no measure of a robot", m.what.text),
                     suggest(m.what.text, std::vector<std::string>(all.begin(), all.end())));
     if (names.empty()) return fail(m.what.at, "this experiment has no robot", "name a <world> that has one");
-    const auto robot = m.of.empty() ? names.begin() : std::find(names.begin(), names.end(), m.of.text);
+    const auto robot = m.of.empty() ? names.begin() : std::ranges::find(names, m.of.text);
     if (robot == names.end())
         return fail(m.of.at, fmt::format("the world has no robot '{}'", m.of.text),
                     suggest(m.of.text, names));

@@ -95,8 +95,7 @@ std::string StopCondition::progress(const Run& run) const {
     const Environment* environment = run.environment();
     if (!environment || environment->robot_names().empty() || environment->start_poses().empty()) return {};
     const auto& trials = environment->trials(0);
-    const auto reached =
-        std::count_if(trials.begin(), trials.end(), [](const Trial& t) { return t.reached_target; });
+    const auto reached = std::ranges::count_if(trials, &Trial::reached_target);
     return fmt::format("{}{} trials, {} at the target", trials.size(),
                        length_.trials ? fmt::format("/{}", *length_.trials) : "", reached);
 }

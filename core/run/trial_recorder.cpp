@@ -15,9 +15,8 @@ namespace {
 int start_number(const std::vector<Pose2>& starts, const Pose2& start) {
     if (starts.empty()) return 0;
     const auto distance = [&](const Pose2& p) { return std::hypot(p.x - start.x, p.y - start.y); };
-    const auto nearest = std::min_element(starts.begin(), starts.end(), [&](const auto& a, const auto& b) {
-        return distance(a) < distance(b);
-    });
+    const auto nearest = std::ranges::min_element(
+        starts, [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
     return static_cast<int>(nearest - starts.begin()) + 1;
 }
 
@@ -32,8 +31,7 @@ std::optional<TrialMeasures::Peaks> TrialMeasures::peaks() const {
 }
 
 std::size_t MeasuredTrials::reached() const {
-    return static_cast<std::size_t>(
-        std::count_if(finished.begin(), finished.end(), [](const auto& t) { return t.reached_target; }));
+    return static_cast<std::size_t>(std::ranges::count_if(finished, &MeasuredTrial::reached_target));
 }
 
 double MeasuredTrials::recent_success(std::size_t count) const {

@@ -21,8 +21,7 @@ void check_sizes(const ModuleType& type, const ModulePorts& ports, const void* m
     std::vector<const ModulePorts::Group*> wrong;  // sizes that follow from these are not reported
     for (const auto& port : type.ports) {
         const auto& groups = port.is_output ? ports.outputs : ports.inputs;
-        const auto group =
-            std::find_if(groups.begin(), groups.end(), [&](const auto& g) { return g.port == port.name; });
+        const auto group = std::ranges::find_if(groups, [&](const auto& g) { return g.port == port.name; });
         if (group == groups.end() || group->shape.cells == 0 || !port.size.nearest) continue;
         PortSizes sizes(ports);
         const GroupShape fits = port.size.nearest(module, sizes, group->shape);

@@ -39,7 +39,7 @@ void require_distinct(const Items& items, const Type& type, std::string_view kin
 template <class Map>
 void insert(Map& map, typename Map::mapped_type type, std::string_view kind) {
     if (type.name.empty()) throw std::invalid_argument(fmt::format("a {} type without a name", kind));
-    if (std::any_of(type.name.begin(), type.name.end(), [](unsigned char c) { return std::isspace(c); }))
+    if (std::ranges::any_of(type.name, [](unsigned char c) { return std::isspace(c); }))
         throw std::invalid_argument(fmt::format("{} type '{}' has blanks in its name", kind, type.name));
     require_numbers(type, kind);
     require_distinct(type.parameters, type, kind, "parameter");
@@ -50,8 +50,7 @@ void insert(Map& map, typename Map::mapped_type type, std::string_view kind) {
 
 template <class Type>
 void require_one_output(const Type& type, std::string_view kind) {
-    const auto outputs =
-        std::count_if(type.states.begin(), type.states.end(), [](const auto& s) { return s.output; });
+    const auto outputs = std::ranges::count_if(type.states, [](const auto& s) { return s.output; });
     if (outputs != 1)
         throw std::invalid_argument(fmt::format(
             "{} type '{}' declares {} output states, it must have exactly one", kind, type.name, outputs));

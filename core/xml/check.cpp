@@ -93,8 +93,7 @@ class Checker {
                 sound_ = false;
                 return;
             }
-            const auto known = std::find_if(rule.children.begin(), rule.children.end(),
-                                            [&](const ChildRule& c) { return c.name == child.name(); });
+            const auto known = std::ranges::find(rule.children, child.name(), &ChildRule::name);
             if (known == rule.children.end()) {
                 unknown_children |= unknown(child, rule);
                 continue;
@@ -180,7 +179,7 @@ class Checker {
         for (const AttributeRule& r : rule.attributes)
             if (r.required && !e[r.name]) {
                 sound_ = false;
-                if (!out_.lenient && std::find(meant.begin(), meant.end(), r.name) != meant.end()) continue;
+                if (!out_.lenient && std::ranges::find(meant, r.name) != meant.end()) continue;
                 out_.error(e.where(), fmt::format("<{}> needs the attribute '{}'", e.name(), r.name),
                            r.value.doc.empty() ? fmt::format("<{} {}=\"...\">", e.name(), r.name)
                                                : fmt::format("{}: {}", r.name, r.value.doc));
@@ -196,7 +195,7 @@ class Checker {
             if (!rule.may_be_empty)
                 out_.warning(v.where(), fmt::format("<{}> is empty and has no effect", subject.name));
         } else if (rule.kind == ValueKind::choice) {
-            if (std::find(rule.choices.begin(), rule.choices.end(), v.view) == rule.choices.end())
+            if (std::ranges::find(rule.choices, v.view) == rule.choices.end())
                 out_.error(v.where(),
                            fmt::format("'{}' is not one of {}", v.view, separated(rule.choices, ", ")),
                            suggest(v.view, rule.choices));
@@ -279,7 +278,7 @@ std::unique_ptr<const Document> open(const std::string& path, std::string text, 
     auto document = Document::parse(path, std::move(text), format.beginning, format.most_nodes, diagnostics);
     if (!document) return nullptr;
     const std::string_view name = document->root().name();
-    if (std::find(format.roots.begin(), format.roots.end(), name) != format.roots.end()) return document;
+    if (std::ranges::find(format.roots, name) != format.roots.end()) return document;
     const std::string_view known = what_begins_with(name);
     diagnostics.error(
         document->root().where(),

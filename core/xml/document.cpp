@@ -207,7 +207,7 @@ const char* Document::in_source(const char* in_buffer) const {
 
 Location Document::place(const char* at) const {
     const auto offset = static_cast<std::size_t>(at - source->text.data());
-    const auto next = std::upper_bound(line_starts.begin(), line_starts.end(), offset);
+    const auto next = std::ranges::upper_bound(line_starts, offset);
     return {source, static_cast<int>(next - line_starts.begin()), static_cast<int>(offset - *(next - 1)) + 1};
 }
 

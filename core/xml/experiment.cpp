@@ -79,16 +79,15 @@ class ExperimentReader {
     static bool misspelt(const Element& e) {
         const ElementRule* rule = experiment_format().find(e.name());
         const auto all = e.attributes();
-        return std::any_of(all.begin(), all.end(),
-                           [&](const Attribute& a) { return !rule->attribute(a.name); });
+        return std::ranges::any_of(all, [&](const Attribute& a) { return !rule->attribute(a.name); });
     }
 
     /// Whether an element holds one that check() has refused, which may be any other one with a misspelt
     /// name.
     static bool has_unknown(const Element& e) {
         const auto all = e.children();
-        return std::any_of(all.begin(), all.end(),
-                           [](const Element& child) { return !experiment_format().find(child.name()); });
+        return std::ranges::any_of(
+            all, [](const Element& child) { return !experiment_format().find(child.name()); });
     }
 
     /// The one of these attributes that an element has. Reports an error when it has none or several.
@@ -157,7 +156,7 @@ class ExperimentReader {
     void manipulation(const Element& e) {
         static constexpr std::array modes = {"clamp", "add", "multiply"};
         static constexpr std::array sources = {"cells", "patterns"};
-        const auto mode = std::find(modes.begin(), modes.end(), e.name()) - modes.begin();
+        const auto mode = std::ranges::find(modes, e.name()) - modes.begin();
         if (mode == std::ssize(modes) || !one_of(e, sources)) return;
         model::ManipulationSpec m;
         m.mode = static_cast<model::ManipulationSpec::Mode>(mode);
@@ -183,9 +182,8 @@ class ExperimentReader {
         m.name = e[name].text(), m.at = e[name].where(), m.what = written(e[kind]), m.of = written(e["of"]);
         if (m.name.empty() && e[name])
             out_.error(m.at, "a measure needs a name", "names are columns of the table of results");
-        m.kind = static_cast<model::Measure::Kind>(
-            std::find(model::measure_kinds.begin(), model::measure_kinds.end(), kind) -
-            model::measure_kinds.begin());
+        m.kind = static_cast<model::Measure::Kind>(std::ranges::find(model::measure_kinds, kind) -
+                                                   model::measure_kinds.begin());
         if (e["of"] && m.kind != model::Measure::Kind::robot)
             out_.error(m.of.at, fmt::format("'{}' is not a measure of a robot", kind),
                        "leave out 'of', which names a robot");
@@ -291,8 +289,7 @@ class ExperimentReader {
         ++axes_;
     }
     bool sweeps_systems() const {
-        return std::any_of(experiment_.sweeps.begin(), experiment_.sweeps.end(),
-                           [](const auto& s) { return !s.files.empty(); });
+        return std::ranges::any_of(experiment_.sweeps, [](const auto& s) { return !s.files.empty(); });
     }
 
     /// The words of a list with blanks between them.

@@ -146,7 +146,7 @@ class Reader {
     void only_holders(const Element& e, const std::vector<std::string>& meaningful) {
         for (const Element& h : e.children("XRefHolder")) {
             const Value name = h["name"];
-            if (std::find(meaningful.begin(), meaningful.end(), name.view) == meaningful.end())
+            if (std::ranges::find(meaningful, name.view) == meaningful.end())
                 out_.unknown(name.where(),
                              fmt::format("a <{}> has no cross references '{}'", e.name(), name.view),
                              suggest(name.view, meaningful));

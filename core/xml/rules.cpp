@@ -9,7 +9,7 @@ namespace {
 
 template <class Rules>
 auto* named(Rules& rules, std::string_view name) {
-    const auto it = std::find_if(rules.begin(), rules.end(), [&](const auto& r) { return r.name == name; });
+    const auto it = std::ranges::find_if(rules, [&](const auto& r) { return r.name == name; });
     return it == rules.end() ? nullptr : &*it;
 }
 

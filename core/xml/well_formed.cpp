@@ -132,7 +132,7 @@ class Scanner {
                 return fail(
                     i, fmt::format("'&{};' is not a character that XML allows", what),
                     "&#N; is a character by its number in Unicode; control characters have none here");
-            if (!what.empty() && std::all_of(what.begin(), what.end(), continues_name))
+            if (!what.empty() && std::ranges::all_of(what, continues_name))
                 return fail(
                     i, fmt::format("there is no entity '&{};'", what),
                     "XML has &lt; &gt; &amp; &quot; and &apos;; other characters stand for themselves");
@@ -205,7 +205,7 @@ class Scanner {
         if (open_.empty()) return fail(start, fmt::format("</{}> closes nothing", closes));
         const std::string_view last = open_.back();
         if (last != closes) {
-            const bool is_open = std::find(open_.begin(), open_.end(), closes) != open_.end();
+            const bool is_open = std::ranges::find(open_, closes) != open_.end();
             return fail(start,
                         fmt::format("</{}> comes before <{}> of line {} is closed", closes, last,
                                     document_.place(last.data()).line),
@@ -259,7 +259,7 @@ class Scanner {
         if (gap == 0)
             return fail(start, fmt::format("there is no blank before the attribute '{}'", attribute),
                         "attributes are written name=\"value\", with a blank between them");
-        if (std::find(seen_.begin(), seen_.end(), attribute) != seen_.end())
+        if (std::ranges::find(seen_, attribute) != seen_.end())
             return fail(start, fmt::format("<{}> has the attribute '{}' twice", tag, attribute),
                         "remove one of them");
         constexpr std::size_t most = 1000;  // each is compared with all previous ones

@@ -111,8 +111,7 @@ void LongTermMemory::collect(float decay) {
 
 void LongTermMemory::refine_candidates(float threshold, float share) {
     if (!(prototypes_.error() > 0)) return;
-    const float error = prototypes_.error() * largest_trigger_,
-                largest = *std::max_element(peaks_.begin(), peaks_.end()),
+    const float error = prototypes_.error() * largest_trigger_, largest = *std::ranges::max_element(peaks_),
                 needed = std::max(threshold, share * largest - std::abs(share) * error);
     // With this order of the comparison, segments with NaN are refined, too.
     const auto too_small = [=](float collector) { return collector + error < needed; };

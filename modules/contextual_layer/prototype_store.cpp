@@ -123,7 +123,7 @@ bool PrototypeStore::set_present(const Eigen::Ref<const Eigen::ArrayXd>& present
         return false;
     }
     present_ = present / peak;
-    std::fill(active_.begin(), active_.end(), 0);
+    std::ranges::fill(active_, 0);
     for (Index i = 0; i < cells_; ++i)
         if (present_[i] != 0)
             active_[static_cast<std::size_t>(i / cells_per_word)] |= std::uint64_t{1} << (i % cells_per_word);

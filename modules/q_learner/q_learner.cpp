@@ -93,8 +93,7 @@ void QLearnerModule::decide(ModuleFrame& frame) {
     for (const double cell : frame.input(state_in))
         now += static_cast<char>(std::clamp(std::lround(cell * levels), -127L, 127L));
     const auto known = table_.find(now);
-    const double best =
-        known == table_.end() ? 0 : *std::max_element(known->second.begin(), known->second.end());
+    const double best = known == table_.end() ? 0 : *std::ranges::max_element(known->second);
     Index executed = 0;
     if (pending_ && frame.input(action_in).maxCoeff(&executed) > 0) learn(static_cast<int>(executed), best);
     reward_ = 0;
@@ -106,7 +105,7 @@ void QLearnerModule::decide(ModuleFrame& frame) {
     const auto row = table_.find(now);
     if (row != table_.end()) {
         const auto& values = row->second;
-        const auto top = std::max_element(values.begin(), values.end());
+        const auto top = std::ranges::max_element(values);
         if (!explores && *top > 0) action[top - values.begin()] = 1;
         if (frame.is_read(q_out)) std::copy(values.begin(), values.end(), frame.output(q_out).data());
     } else if (frame.is_read(q_out)) {

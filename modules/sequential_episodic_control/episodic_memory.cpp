@@ -85,8 +85,7 @@ void EpisodicMemory::forget(const Settings& settings, const std::function<double
     };
     const auto lowest = [this] {  // the oldest one of several
         const auto less = [](const Sequence& a, const Sequence& b) { return a.reward < b.reward; };
-        return static_cast<std::size_t>(std::min_element(sequences_.begin(), sequences_.end(), less) -
-                                        sequences_.begin());
+        return static_cast<std::size_t>(std::ranges::min_element(sequences_, less) - sequences_.begin());
     };
     switch (settings.forgetting) {
         case Forgetting::none:
@@ -120,7 +119,7 @@ void EpisodicMemory::end_episode() {
 
 void EpisodicMemory::clear_recent() {
     recent_states_.setZero();
-    std::fill(recent_actions_.begin(), recent_actions_.end(), 0);
+    std::ranges::fill(recent_actions_, 0);
 }
 
 }  // namespace forage::sec

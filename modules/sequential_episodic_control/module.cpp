@@ -47,7 +47,7 @@ void check_option(const Options<T, n>& all, const char* parameter, const std::st
                   Diagnostics& diagnostics) {
     std::vector<std::string> names;
     for (const auto& entry : all) names.emplace_back(entry.first);
-    if (std::find(names.begin(), names.end(), name) == names.end())
+    if (std::ranges::find(names, name) == names.end())
         diagnostics.error(at_parameter(parameter), fmt::format("'{}' cannot be '{}'", parameter, name),
                           fmt::format("use one of: {}", separated(names, ", ")));
 }

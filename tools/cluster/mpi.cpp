@@ -123,8 +123,7 @@ int execute(const Options& o, int rank, int ranks) {
         fmt::print(stderr, "{}", format(diagnostics));
         return 1;
     }
-    const bool failed =
-        std::any_of(results->begin(), results->end(), [](const auto& r) { return !r.failure.empty(); });
+    const bool failed = std::ranges::any_of(*results, [](const auto& r) { return !r.failure.empty(); });
     if (!o.quiet)
         fmt::print("{}: {} runs\n{}  written: {}, {}\n", o.file, e->runs.size(),
                    summary_text(e->experiment, e->runs, *results), e->results_file(), e->summary_file());

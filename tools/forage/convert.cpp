@@ -25,7 +25,7 @@ bool is_process_file(const std::string& path) { return fs::path(path).extension(
 void warn_of_loss(const model::System& system, const model::ProcessFile& file, Diagnostics& diagnostics) {
     std::set<std::string> groups;
     for (const auto& g : file.process.groups) groups.insert(g.id);
-    const auto lost = std::count_if(system.connections.begin(), system.connections.end(), [&](const auto& c) {
+    const auto lost = std::ranges::count_if(system.connections, [&](const auto& c) {
         return groups.contains(c.source) != groups.contains(c.target);
     });
     if (lost)

@@ -31,7 +31,7 @@ std::string progress_text(const ExperimentCallbacks::Progress& p) {
 
 /// The findings about a system, for printing. Returns the exit status.
 int print_findings(const std::string& system, std::span<const Finding> all) {
-    const auto met = std::count_if(all.begin(), all.end(), [](const auto& f) { return f.met; });
+    const auto met = std::ranges::count_if(all, &Finding::met);
     if (all.empty())
         fmt::print("{}: this exercise requires nothing of a system\n", system);
     else

@@ -32,7 +32,7 @@ std::string suggestion(const CLI::App& app, int argc, char** argv) {
         for (const auto& name : o->get_lnames()) options.push_back("--" + name);
     for (int i = 2; i < argc; ++i) {
         const std::string word = std::string(argv[i]).substr(0, std::string(argv[i]).find('='));
-        if (word.starts_with("--") && std::find(options.begin(), options.end(), word) == options.end())
+        if (word.starts_with("--") && std::ranges::find(options, word) == options.end())
             return fmt::format(
                 "there is no option '{}'{}", word,
                 forage::nearest(word, options).empty() ? "" : ", " + forage::suggest(word, options));
@@ -160,7 +160,7 @@ int program(int argc, char** argv) {
         }
         if (argc == 2 && std::string_view(argv[1]) == "help") return fmt::print("{}", app.help()), fine;
         auto words = current_names({argv + 1, argv + argc});
-        std::reverse(words.begin(), words.end());  // as CLI11 takes them
+        std::ranges::reverse(words);  // as CLI11 takes them
         app.parse(words);
     } catch (const CLI::ParseError& e) {  // also a call for help
         const bool no_command = app.get_subcommands().empty() && !std::string_view(argv[1]).starts_with("-");

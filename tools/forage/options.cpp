@@ -51,7 +51,7 @@ CLI::Validator one_of(std::vector<std::string> names) {
     const std::string set = fmt::format("{{{}}}", separated(names, ","));  // for completion
     return CLI::Validator(
         [names = std::move(names)](const std::string& text) {
-            return std::find(names.begin(), names.end(), text) != names.end()
+            return std::ranges::find(names, text) != names.end()
                        ? std::string()
                        : fmt::format("'{}' is none of {}", text, separated(names, ", "));
         },

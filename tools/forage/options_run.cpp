@@ -306,7 +306,7 @@ RunOptions parse_run(std::vector<std::string> arguments) {
     RunOptions options;
     add_run(app, options);
     arguments = current_names(std::move(arguments));
-    std::reverse(arguments.begin(), arguments.end());  // as CLI11 takes them
+    std::ranges::reverse(arguments);  // as CLI11 takes them
     app.parse(arguments);
     return options;
 }

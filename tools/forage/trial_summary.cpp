@@ -54,8 +54,8 @@ std::string by_route(const MeasuredTrials& trials) {
     std::map<std::string, Count> counts;
     for (const auto& t : trials.finished) counts[t.route.empty() ? "none" : t.route].add(t);
     std::vector<std::pair<std::string, Count>> sorted(counts.begin(), counts.end());
-    std::stable_sort(sorted.begin(), sorted.end(),
-                     [](const auto& a, const auto& b) { return a.second.all > b.second.all; });
+    std::ranges::stable_sort(sorted,
+                             [](const auto& a, const auto& b) { return a.second.all > b.second.all; });
     std::vector<std::string> out;
     for (std::size_t i = 0; i < std::min(most, sorted.size()); ++i)
         out.push_back(
@@ -67,8 +67,8 @@ std::string by_route(const MeasuredTrials& trials) {
 void adaptive_lines(const std::vector<MeasuredTrial>& trials, Lines& lines) {
     if (!trials.back().measures.discrepancy) return;
     constexpr double low = 0.1;
-    const auto below = std::find_if(trials.begin(), trials.end(),
-                                    [](const auto& t) { return *t.measures.discrepancy < low; });
+    const auto below =
+        std::ranges::find_if(trials, [](const auto& t) { return *t.measures.discrepancy < low; });
     lines.emplace_back(
         "discrepancy",
         fmt::format("{:.3f} after the first trial, {:.3f} after the last; {}",
@@ -91,7 +91,7 @@ void adaptive_lines(const std::vector<MeasuredTrial>& trials, Lines& lines) {
 void memory_line(const std::vector<MeasuredTrial>& trials, Lines& lines) {
     const auto& memory = trials.back().measures.memory;
     if (!memory || !memory->all_sequences) return;
-    const auto full = std::find_if(trials.begin(), trials.end(), [](const auto& t) {
+    const auto full = std::ranges::find_if(trials, [](const auto& t) {
         return t.measures.memory->sequences == t.measures.memory->all_sequences;
     });
     lines.emplace_back(

@@ -42,7 +42,7 @@ int tutorial(const TutorialOptions& o) {
     const auto in_part = [&](const auto& e) {
         return o.exercise.empty() || e.number.starts_with(o.exercise + ".");
     };
-    const auto first = std::find_if(all.begin(), all.end(), in_part);
+    const auto first = std::ranges::find_if(all, in_part);
     if (first != all.end() && !o.system.empty()) {
         fmt::print(stderr,
                    "error: which exercise?\n  hint: 'forage tutorial {} --system FILE' checks a file for the "
@@ -65,8 +65,7 @@ int tutorial(const TutorialOptions& o) {
     }
     if (fs::path(o.exercise).extension() == ".xml")
         return experiment({.file = o.exercise, .directory = o.directory, .system = o.system});
-    const auto wanted =
-        std::find_if(all.begin(), all.end(), [&](const auto& e) { return e.number == o.exercise; });
+    const auto wanted = std::ranges::find_if(all, [&](const auto& e) { return e.number == o.exercise; });
     if (wanted == all.end()) {
         std::vector<std::string> numbers;
         for (const auto& e : all) numbers.push_back(e.number);

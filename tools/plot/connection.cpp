@@ -31,7 +31,7 @@ SynapseTable table_of(const ConnectionPlot& p, const Values& values, Join join) 
     // Synapses between the same two cells are joined first, independently of the size of the groups.
     std::vector<std::size_t> order(p.pre.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
         return std::pair(p.post[a], p.pre[a]) < std::pair(p.post[b], p.pre[b]);
     });
     SynapseTable out{
@@ -69,7 +69,7 @@ Picture connection_plot(const ConnectionPlot& plot) {
     std::vector<Panel> panels;
     panels.push_back(
         {table_of(plot, plot.strength, [](double a, double b) { return a + b; }), {}, "strength"});
-    if (std::any_of(plot.delay.begin(), plot.delay.end(), [](int d) { return d != 0; }))
+    if (std::ranges::any_of(plot.delay, [](int d) { return d != 0; }))
         panels.push_back({table_of(plot, plot.delay, [](double a, double b) { return std::max(a, b); }),
                           {},
                           "delay (cycles)"});

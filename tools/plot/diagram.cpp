@@ -317,7 +317,7 @@ DiagramSheet system_sheet(const model::System& system) {
             {box_of(p.icon), trimmed(p.name), size, below, true, false, p.module && !p.module_enabled});
     }
     const bool placed =
-        std::all_of(system.processes.begin(), system.processes.end(), [](const auto& p) { return p.icon; });
+        std::ranges::all_of(system.processes, [](const auto& p) { return p.icon.has_value(); });
     add_remarks(out, system.canvas_comments, placed);
     // One arrow stands for all connections of a kind between two processes that are bent in the same way.
     using Bends = std::vector<std::pair<int, int>>;
@@ -377,7 +377,7 @@ void add_outside(DiagramSheet& sheet, const model::System& system, const model::
         for (const double x : xs) sum += x;
         if (groups.find(id).group) order.emplace_back(sum / static_cast<double>(xs.size()), id);
     }
-    std::sort(order.begin(), order.end());
+    std::ranges::sort(order);
     double free_from = std::numeric_limits<double>::lowest();
     for (const auto& [x, id] : order) {
         const auto entry = groups.find(id);
@@ -465,8 +465,7 @@ DiagramSheet process_sheet(const model::System& system, const model::Process& pr
         node_of[g.id] = out.nodes.size();
         out.nodes.push_back({box_of(g.icon), trimmed(g.name), size_of(g), ""});
     }
-    const bool placed =
-        std::all_of(process.groups.begin(), process.groups.end(), [](const auto& g) { return g.icon; });
+    const bool placed = std::ranges::all_of(process.groups, [](const auto& g) { return g.icon.has_value(); });
     if (placed)
         draw_connections(out, system, process, node_of);
     else

@@ -119,8 +119,8 @@ std::uint8_t GifFile::number_of(std::uint32_t rgb) {
             }
             return sum;
         };
-        const auto nearest = std::min_element(colours_.begin(), colours_.end(),
-                                              [&](auto a, auto b) { return away(a) < away(b); });
+        const auto nearest =
+            std::ranges::min_element(colours_, [&](auto a, auto b) { return away(a) < away(b); });
         at->second = static_cast<std::uint8_t>(nearest - colours_.begin());
     }
     return at->second;

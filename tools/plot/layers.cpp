@@ -27,7 +27,7 @@ std::vector<std::size_t> ordered(std::size_t boxes, const Arrows& arrows) {
     for (const bool inner : {false, true})  // sources first, so that only circles are cut
         for (std::size_t box = 0; box < boxes; ++box)
             if (receives[box] == inner) visit(box);
-    std::reverse(out.begin(), out.end());
+    std::ranges::reverse(out);
     return out;
 }
 
@@ -94,8 +94,7 @@ Layers layered(std::size_t boxes, const Arrows& arrows) {
                         if (self == i && row[other] == row[i] + beside) sum += column[other], ++count;
                 wanted.emplace_back(count > 0 ? sum / count : column[i], i);
             }
-            std::stable_sort(wanted.begin(), wanted.end(),
-                             [](const auto& a, const auto& b) { return a.first < b.first; });
+            std::ranges::stable_sort(wanted, [](const auto& a, const auto& b) { return a.first < b.first; });
             for (std::size_t i = 0; i < items.size(); ++i) items[i] = wanted[i].second;
             spread(items);
         }

@@ -79,7 +79,7 @@ void draw_break(Canvas& canvas, const Axes& axes, double at) {
 }
 
 bool has_numbers(const LinesPlot::Line& line) {
-    return std::any_of(line.points.begin(), line.points.end(), [](const auto& p) { return p.y; });
+    return std::ranges::any_of(line.points, [](const auto& p) { return p.y.has_value(); });
 }
 
 /// Crosses on the axis where a line has no number, one above the other when several lines have none, and the

@@ -39,7 +39,7 @@ Points resampled(const Points& path) {
 /// The paths of finished trials; all paths when there are none, as in a world without trials.
 std::vector<Path> counted(std::vector<Path> paths) {
     const auto finished = [](const Path& p) { return p.finished; };
-    if (std::any_of(paths.begin(), paths.end(), finished)) std::erase_if(paths, std::not_fn(finished));
+    if (std::ranges::any_of(paths, finished)) std::erase_if(paths, std::not_fn(finished));
     return paths;
 }
 
@@ -52,13 +52,13 @@ std::vector<Points> mean_paths(const bug::World& world, const std::vector<Path>&
     for (const auto& p : paths) {
         if (p.points.size() < 2 || !p.finished) continue;
         const auto nearest =
-            std::min_element(starts.begin(), starts.end(),
-                             [&](const auto& a, const auto& b) {
-                                 const auto distance = [&](const Pose2& s) {
-                                     return std::hypot(s.x - p.points[0].x(), s.y - p.points[0].y());
-                                 };
-                                 return distance(a) < distance(b);
-                             }) -
+            std::ranges::min_element(starts,
+                                     [&](const auto& a, const auto& b) {
+                                         const auto distance = [&](const Pose2& s) {
+                                             return std::hypot(s.x - p.points[0].x(), s.y - p.points[0].y());
+                                         };
+                                         return distance(a) < distance(b);
+                                     }) -
             starts.begin();
         const auto n = static_cast<std::size_t>(nearest);
         const Points points = resampled(p.points);

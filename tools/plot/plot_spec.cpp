@@ -11,8 +11,7 @@
 namespace forage::plot {
 
 bool PlotSpec::wants(std::uint64_t cycle) const {
-    return cycles.empty() ||
-           std::any_of(cycles.begin(), cycles.end(), [&](const Cycles& c) { return c.contains(cycle); });
+    return cycles.empty() || std::ranges::any_of(cycles, [&](const Cycles& c) { return c.contains(cycle); });
 }
 
 std::string PlotSpec::after(std::uint64_t end) const {

@@ -51,7 +51,7 @@ void RowPlot::add(std::uint64_t cycle, std::span<const double> numbers) {
     };
     for (auto& curve : curves_) {
         const auto cells = numbers.first(std::min(cells_per_row_, numbers.size()));
-        curve.add(static_cast<double>(cycle), *std::max_element(cells.begin(), cells.end(), smaller));
+        curve.add(static_cast<double>(cycle), *std::ranges::max_element(cells, smaller));
         numbers = numbers.subspan(cells.size());
     }
 }
@@ -194,7 +194,7 @@ std::vector<Path> paths_of(const PathRecorder& recorder, const bug::World& world
 void TrajectoryPlotter::finish(RunView&, ResultFiles& files) {
     std::vector<Path> paths = paths_of(recorder_, world_);
     const auto leads_somewhere = [](const Path& path) { return path.points.size() > 1; };
-    if (!spec_ && std::none_of(paths.begin(), paths.end(), leads_somewhere)) return;
+    if (!spec_ && std::ranges::none_of(paths, leads_somewhere)) return;
     if (spec_)
         if (const auto missing = spec_->after(paths.size()); !missing.empty())
             files.warn(fmt::format("'{}': the run ended before trial {}", spec_->text, missing),

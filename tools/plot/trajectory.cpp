@@ -119,8 +119,7 @@ class Drawing {
             y += 24;
         };
         const auto count = [&](End end) {
-            return std::count_if(paths_.begin(), paths_.end(),
-                                 [&](const Path& p) { return end_of(p) == end; });
+            return std::ranges::count_if(paths_, [&](const Path& p) { return end_of(p) == end; });
         };
         for (const auto& [end, name] : {std::pair{End::reached, "at the target"},
                                         {End::missed, "missed"},

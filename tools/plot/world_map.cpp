@@ -31,7 +31,7 @@ CairoSurface picture_of(const bug::FloorTexture& floor, int n) {
     std::vector<std::uint32_t> red_blue(static_cast<std::size_t>(floor.width())), green(red_blue.size());
     for (int y = 0; y < height; ++y) {
         const int rows = std::min(n, floor.height() - y * n);
-        std::fill(red_blue.begin(), red_blue.end(), 0u), std::fill(green.begin(), green.end(), 0u);
+        std::ranges::fill(red_blue, 0u), std::ranges::fill(green, 0u);
         for (int row = y * n; row < y * n + rows; ++row) {
             const std::uint32_t* in = floor.row(row);
             for (std::size_t i = 0; i < green.size(); ++i)
@@ -56,7 +56,7 @@ CairoSurface picture_of(const bug::FloorTexture& floor, int n) {
 bool has_homes(const bug::World& world) {
     const auto& models = world.description().models;
     return !world.game().empty() ||
-           std::any_of(models.begin(), models.end(), [](const auto& m) { return m.name == "Home_A"; });
+           std::ranges::any_of(models, [](const auto& m) { return m.name == "Home_A"; });
 }
 
 WorldMap::WorldMap(const bug::World& world, const Box& extra, double pixels, double left, double top)
@@ -96,8 +96,7 @@ void WorldMap::draw_ground(Canvas& canvas) const {
         // The map is drawn without the floor; the camera reports that its picture cannot be read.
     }
     auto solids = bug::drawing_of(world_.description());
-    std::stable_sort(solids.begin(), solids.end(),
-                     [](const auto& a, const auto& b) { return top_of(a) < top_of(b); });
+    std::ranges::stable_sort(solids, [](const auto& a, const auto& b) { return top_of(a) < top_of(b); });
     for (const auto& d : solids) draw_solid(canvas, d);
 }
 

@@ -62,7 +62,7 @@ std::optional<double> synapses(const model::Requirement& r, std::string_view kin
     if (!to || (!from && !r.from.empty())) return std::nullopt;
     const auto holds = [](const observe::Source& s, int cell) {
         const auto& cells = s.part.numbers;
-        return std::find(cells.begin(), cells.end(), static_cast<std::size_t>(cell)) != cells.end();
+        return std::ranges::find(cells, static_cast<std::size_t>(cell)) != cells.end();
     };
     const model::GroupIndex groups(system);
     double count = 0;
@@ -102,8 +102,7 @@ std::string joined(std::string_view text) {
 
 /// What may be wrong when no trial ended.
 std::string no_trial(const model::Experiment& e, std::span<const RunResult> results) {
-    const auto diverged =
-        std::count_if(results.begin(), results.end(), [](const auto& r) { return !r.diverged.empty(); });
+    const auto diverged = std::ranges::count_if(results, [](const auto& r) { return !r.diverged.empty(); });
     if (diverged > 0)
         return fmt::format(
             "No trial ended, and in {} of {} runs a number grew beyond all bounds. Is the learning rate, or "
@@ -168,7 +167,7 @@ void check_own(const model::Experiment& e, const model::System& start, const mod
     // Whether the texts hold a name, not only as the beginning of a longer one.
     const auto named = [&](const std::string& name, const std::vector<std::string>& all) {
         for (auto at = texts.find(name); at != std::string::npos; at = texts.find(name, at + 1))
-            if (std::none_of(all.begin(), all.end(), [&](const std::string& longer) {
+            if (std::ranges::none_of(all, [&](const std::string& longer) {
                     return longer.size() > name.size() && texts.compare(at, longer.size(), longer) == 0;
                 }))
                 return true;
@@ -177,7 +176,7 @@ void check_own(const model::Experiment& e, const model::System& start, const mod
     const auto check = [&](const char* kind, const std::vector<std::string>& wanted,
                            const std::vector<std::string>& there) {
         for (const auto& name : wanted)
-            if (named(name, wanted) && std::find(there.begin(), there.end(), name) == there.end())
+            if (named(name, wanted) && std::ranges::find(there, name) == there.end())
                 diagnostics.error({}, fmt::format("the system has no {} '{}'", kind, name),
                                   "the exercise uses it: keep the names of the system to start from");
     };
@@ -196,9 +195,9 @@ std::vector<Finding> findings(const model::Experiment& experiment, std::span<con
     std::vector<Finding> out;
     if (!experiment.exercise) return out;
     const auto& all = experiment.exercise->requirements;
-    std::size_t measure = experiment.measures.size() -
-                          static_cast<std::size_t>(std::count_if(
-                              all.begin(), all.end(), [](const auto& r) { return r.measure.has_value(); }));
+    std::size_t measure =
+        experiment.measures.size() - static_cast<std::size_t>(std::ranges::count_if(
+                                         all, [](const auto& r) { return r.measure.has_value(); }));
     bool moved = true;  // until a requirement has said otherwise
     for (const auto& r : all) {
         const Number n = r.measure ? measured(r, measure++, results)

@@ -49,7 +49,7 @@ std::vector<fs::path> part_files(const std::string& directory, const std::option
         const bool other = only && part != only->name() && part.ends_with(fmt::format("-of-{}", only->of));
         if (!other) out.push_back(entry.path());
     }
-    std::sort(out.begin(), out.end());
+    std::ranges::sort(out);
     return out;
 }
 
@@ -122,12 +122,12 @@ void PartFile::add(const std::string& run, std::uint64_t key, const RunResult& r
 
 std::size_t PartResults::finished() const {
     return static_cast<std::size_t>(
-        std::count_if(results.begin(), results.end(), [](const auto& r) { return r && r->failure.empty(); }));
+        std::ranges::count_if(results, [](const auto& r) { return r && r->failure.empty(); }));
 }
 
 std::size_t PartResults::failed() const {
-    return static_cast<std::size_t>(std::count_if(results.begin(), results.end(),
-                                                  [](const auto& r) { return r && !r->failure.empty(); }));
+    return static_cast<std::size_t>(
+        std::ranges::count_if(results, [](const auto& r) { return r && !r->failure.empty(); }));
 }
 
 PartResults read_parts(const std::string& directory, const RunPlan& plan, const model::Experiment& experiment,
@@ -141,7 +141,7 @@ PartResults read_parts(const std::string& directory, const RunPlan& plan, const 
     std::vector<std::pair<std::uint64_t, std::size_t>> runs;  // runs with equal input have equal keys
     runs.reserve(plan.size());
     for (std::size_t i = 0; i < plan.size(); ++i) runs.emplace_back(keys[i], i);
-    std::sort(runs.begin(), runs.end());
+    std::ranges::sort(runs);
     std::vector<std::uint64_t> times;  // ms
     for (std::uint32_t file = 0; file < out.files.size(); ++file) {
         std::ifstream in(out.files[file], std::ios::binary);
@@ -156,7 +156,7 @@ PartResults read_parts(const std::string& directory, const RunPlan& plan, const 
                 if (result.failure.empty() && result.measures.size() != experiment.measures.size())
                     throw std::invalid_argument("measures");
                 times.push_back(json.at("at").get<std::uint64_t>());
-                auto run = std::lower_bound(runs.begin(), runs.end(), std::pair(key, std::size_t{0}));
+                auto run = std::ranges::lower_bound(runs, std::pair(key, std::size_t{0}));
                 for (; run != runs.end() && run->first == key; ++run)
                     if (auto& kept = out.results[run->second]; !kept || !kept->failure.empty())
                         kept = result, out.lines[run->second] = {file, at};
@@ -166,7 +166,7 @@ PartResults read_parts(const std::string& directory, const RunPlan& plan, const 
         }
     }
     if (times.empty()) return out;
-    const std::uint64_t newest = *std::max_element(times.begin(), times.end()), minute = 60'000;
+    const std::uint64_t newest = *std::ranges::max_element(times), minute = 60'000;
     std::uint64_t oldest = newest, recent = 0;
     for (const auto t : times)
         if (t + minute >= newest) oldest = std::min(oldest, t), ++recent;
@@ -180,7 +180,7 @@ std::vector<std::string> read_trials(const PartResults& parts, std::span<const P
     std::vector<std::size_t> order;
     for (std::size_t i = 0; i < lines.size(); ++i)
         if (lines[i].file != PartResults::no_file) order.push_back(i);
-    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    std::ranges::sort(order, [&](std::size_t a, std::size_t b) {
         return std::pair(lines[a].file, lines[a].at) < std::pair(lines[b].file, lines[b].at);
     });
     std::vector<std::string> out(lines.size());

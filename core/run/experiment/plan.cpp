@@ -23,8 +23,8 @@ RunSpec common(const model::Experiment& e) {
     o.length.in_code = !e.length_at.file;
     o.recordings = e.recordings, o.changes = e.changes, o.measures = e.measures;
     o.manipulations = e.manipulations, o.plots = e.plots;
-    o.paths = std::any_of(e.plots.begin(), e.plots.end(),
-                          [](const auto& plot) { return model::trim(plot.text).starts_with("trajectory"); });
+    o.paths = std::ranges::any_of(
+        e.plots, [](const auto& plot) { return model::trim(plot.text).starts_with("trajectory"); });
     return o;
 }
 
@@ -38,8 +38,7 @@ std::string short_name(const std::string& parameter) {
 RunPlan::RunPlan(const model::Experiment& e, std::string directory, const std::vector<std::string>& plugins)
     : directory_(std::move(directory)), common_(common(e)), sweeps_(e.sweeps), seeds_(e.seeds) {
     common_.input.plugins = plugins;
-    const bool swept =
-        std::any_of(sweeps_.begin(), sweeps_.end(), [](const auto& s) { return !s.files.empty(); });
+    const bool swept = std::ranges::any_of(sweeps_, [](const auto& s) { return !s.files.empty(); });
     if (!swept && !e.systems.empty()) {
         common_.input.system = common_.input.more.front();
         common_.input.more.erase(common_.input.more.begin());
@@ -58,15 +57,15 @@ RunPlan RunPlan::with_seeds(const std::vector<std::size_t>& counts) const {
     RunPlan out = *this;
     out.first_.assign(1, 0);
     for (const std::size_t count : counts) out.first_.push_back(out.first_.back() + count);
-    const std::size_t most = counts.empty() ? 0 : *std::max_element(counts.begin(), counts.end());
-    std::uint64_t last = seeds_.empty() ? 0 : *std::max_element(seeds_.begin(), seeds_.end());
+    const std::size_t most = counts.empty() ? 0 : *std::ranges::max_element(counts);
+    std::uint64_t last = seeds_.empty() ? 0 : *std::ranges::max_element(seeds_);
     while (out.seeds_.size() < most) out.seeds_.push_back(++last);
     return out;
 }
 
 std::size_t RunPlan::combination(std::size_t run) const {
     if (first_.empty()) return run / seeds_.size();
-    return static_cast<std::size_t>(std::upper_bound(first_.begin(), first_.end(), run) - first_.begin()) - 1;
+    return static_cast<std::size_t>(std::ranges::upper_bound(first_, run) - first_.begin()) - 1;
 }
 
 std::size_t RunPlan::chosen(const model::Sweep& sweep, std::size_t combination) const {
@@ -95,7 +94,7 @@ std::string RunPlan::name(std::size_t run) const {
     std::string out = fmt::format("{}seed-{}", combination_name(combination), *own);
     auto earlier = static_cast<std::size_t>(std::count(seeds_.begin(), own, *own));
     if (const auto found = repeated_.find(combination); found != repeated_.end())
-        earlier += found->second * static_cast<std::size_t>(std::count(seeds_.begin(), seeds_.end(), *own));
+        earlier += found->second * static_cast<std::size_t>(std::ranges::count(seeds_, *own));
     return earlier > 0 ? fmt::format("{}_{}", out, earlier + 1) : out;
 }
 

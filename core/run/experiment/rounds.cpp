@@ -22,8 +22,8 @@ template <class Results>
 std::vector<double> numbers_of(const model::Experiment& e, const RunPlan& plan, const Results& results,
                                std::size_t combination) {
     const auto measure = static_cast<std::size_t>(
-        std::find_if(e.measures.begin(), e.measures.end(),
-                     [&](const auto& m) { return m.name == e.adaptation->measure.text; }) -
+        std::ranges::find_if(e.measures,
+                             [&](const auto& m) { return m.name == e.adaptation->measure.text; }) -
         e.measures.begin());
     std::vector<double> out;
     for (std::size_t run = plan.first(combination); run < plan.first(combination + 1); ++run) {
@@ -69,7 +69,7 @@ std::vector<std::size_t> ranking(const model::Experiment& e, const RunPlan& plan
         const double good = e.adaptation->highest ? -mean : mean;
         all.emplace_back(std::isfinite(good) ? good : std::numeric_limits<double>::infinity(), c);
     }
-    std::sort(all.begin(), all.end());  // of equal ones, the first in the plan
+    std::ranges::sort(all);  // of equal ones, the first in the plan
     std::vector<std::size_t> out;
     for (const auto& [rank, c] : all) out.push_back(c);
     return out;
@@ -79,8 +79,7 @@ std::vector<std::size_t> ranking(const model::Experiment& e, const RunPlan& plan
 
 std::optional<std::vector<std::size_t>> next_round(const model::Experiment& e, const RunPlan& plan,
                                                    std::span<const std::optional<RunResult>> results) {
-    if (!e.adaptation || std::any_of(results.begin(), results.end(), [](const auto& r) { return !r; }))
-        return std::nullopt;
+    if (!e.adaptation || std::ranges::any_of(results, [](const auto& r) { return !r; })) return std::nullopt;
     std::vector<std::size_t> seeds(plan.combinations());
     for (std::size_t c = 0; c < seeds.size(); ++c) seeds[c] = plan.seeds(c);
     const auto before = seeds;

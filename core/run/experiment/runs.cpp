@@ -133,8 +133,8 @@ class Work {
         if (run.has_trials()) {
             const auto& trials = run.environment()->trials(0);
             result.trials = trials.size();
-            result.reached = static_cast<std::uint64_t>(
-                std::count_if(trials.begin(), trials.end(), [](const Trial& t) { return t.reached_target; }));
+            result.reached =
+                static_cast<std::uint64_t>(std::ranges::count_if(trials, &Trial::reached_target));
         }
         result.measures = run.measure(*prepared.measures);
         ResultFiles files(prepared.spec.directory, "trials.csv");
@@ -209,8 +209,8 @@ void check_experiment(const model::Experiment& e, const PrepareRun& prepare, con
     // What is wrong with all systems is reported once; otherwise the message names the system.
     for (auto system = by_system.begin(); const Diagnostics& of_system : found) {
         for (Diagnostic d : of_system.all()) {
-            const bool in_all = std::all_of(found.begin(), found.end(),
-                                            [&](const Diagnostics& other) { return contains(other, d); });
+            const bool in_all =
+                std::ranges::all_of(found, [&](const Diagnostics& other) { return contains(other, d); });
             if (in_all && &of_system != &found.front()) continue;
             if (!in_all && (!d.where.file || d.where.file->path == e.path))
                 d.message = fmt::format("system '{}': {}", system->first, d.message);

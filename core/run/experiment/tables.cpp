@@ -43,7 +43,7 @@ Statistics statistics(const std::vector<double>& values) {
     s.mean /= static_cast<double>(s.n);
     for (const double v : values) s.deviation += (v - s.mean) * (v - s.mean);
     s.deviation = s.n > 1 ? std::sqrt(s.deviation / static_cast<double>(s.n - 1)) : 0;
-    const auto [least, most] = std::minmax_element(values.begin(), values.end());
+    const auto [least, most] = std::ranges::minmax_element(values);
     s.least = *least, s.most = *most;
     return s;
 }
@@ -55,7 +55,7 @@ struct Combination {
 
     std::size_t finished() const {
         return static_cast<std::size_t>(
-            std::count_if(results.begin(), results.end(), [](const auto& r) { return r.failure.empty(); }));
+            std::ranges::count_if(results, [](const auto& r) { return r.failure.empty(); }));
     }
     Statistics of(std::size_t measure) const {
         std::vector<double> numbers;
@@ -75,7 +75,7 @@ std::vector<Combination> combinations(const RunPlan& plan, std::span<const RunRe
 using observe::TableColumn;
 
 bool have_trials(std::span<const RunResult> results) {
-    return std::any_of(results.begin(), results.end(), [](const auto& r) { return r.trials.has_value(); });
+    return std::ranges::any_of(results, [](const auto& r) { return r.trials.has_value(); });
 }
 
 std::string status_of(const RunResult& r) {
@@ -108,7 +108,7 @@ std::vector<observe::TableColumn> results_columns(const model::Experiment& e, co
                                                   std::span<const RunResult> results) {
     std::vector<TableColumn> out;
     const auto add = [&](TableColumn column) {
-        while (std::any_of(out.begin(), out.end(), [&](const auto& c) { return c.name == column.name; }))
+        while (std::ranges::any_of(out, [&](const auto& c) { return c.name == column.name; }))
             column.name += '\'';
         out.push_back(std::move(column));
     };
@@ -188,7 +188,7 @@ std::string summary_csv(const model::Experiment& e, const RunPlan& plan, std::sp
 
 std::string divergence_summary(const RunPlan& plan, std::span<const RunResult> results) {
     const auto diverged = [](const RunResult& r) { return !r.diverged.empty(); };
-    const auto first = std::find_if(results.begin(), results.end(), diverged);
+    const auto first = std::ranges::find_if(results, diverged);
     if (first == results.end()) return {};
     const auto count = std::count_if(first, results.end(), diverged);
     const std::string name = plan.name(static_cast<std::size_t>(first - results.begin()));
@@ -205,8 +205,7 @@ Diagnostics warnings_of(const RunPlan& plan, std::span<const RunResult> results)
     std::vector<Shared> all;
     for (std::size_t i = 0; i < results.size(); ++i)
         for (const auto& [text, hint] : results[i].warnings) {
-            auto at = std::find_if(all.begin(), all.end(),
-                                   [&text = text](const Shared& s) { return s.text == text; });
+            auto at = std::ranges::find(all, text, &Shared::text);
             if (at == all.end()) at = all.insert(at, {text, hint, plan.name(i)});
             ++at->count;
         }

@@ -69,7 +69,7 @@ bool Reader::record(const char* bytes) {
         lost_ = false;
         return true;
     } else if (e.type == EV_ABS) {
-        const auto code = std::find(axis_codes.begin(), axis_codes.end(), static_cast<int>(e.code));
+        const auto code = std::ranges::find(axis_codes, static_cast<int>(e.code));
         if (code != axis_codes.end())
             next_.axes[static_cast<std::size_t>(code - axis_codes.begin())] =
                 position(e.value, range_of_ ? range_of_(e.code) : usual_range(e.code));

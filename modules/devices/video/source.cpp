@@ -25,7 +25,7 @@ class Folder final : public Source {
         for (const auto& entry : fs::directory_iterator(folder))
             if (entry.is_regular_file() && entry.path().extension() == ".png")
                 files_.push_back(entry.path().string());
-        std::sort(files_.begin(), files_.end());
+        std::ranges::sort(files_);
         if (files_.empty())
             throw std::runtime_error(fmt::format("the folder '{}' has no .png files", folder));
     }

@@ -158,8 +158,7 @@ std::optional<plot::Picture> draw_trajectory(const PlotSpec& spec, const bug::Wo
 std::optional<Loaded> load_for(const std::vector<PlotSpec>& specs, const Results& results,
                                Diagnostics& diagnostics) {
     const auto any = [&](auto... kinds) {
-        return std::any_of(specs.begin(), specs.end(),
-                           [&](const PlotSpec& s) { return ((s.kind == kinds) || ...); });
+        return std::ranges::any_of(specs, [&](const PlotSpec& s) { return ((s.kind == kinds) || ...); });
     };
     const bool trajectory = any(Kind::trajectory), world = trajectory || any(Kind::occupancy);
     if (!world && !any(Kind::diagram, Kind::connection, Kind::wiring)) return std::nullopt;

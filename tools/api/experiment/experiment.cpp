@@ -298,11 +298,9 @@ std::optional<std::vector<RunResult>> merge(PreparedExperiment& e, Diagnostics& 
         diagnostics.warning({},
                             fmt::format("{} lines in '{}/parts' cannot be read", found.damaged, e.directory),
                             "they count as runs that were not executed");
-    const auto missing =
-        std::count_if(found.results.begin(), found.results.end(), [](const auto& r) { return !r; });
+    const auto missing = std::ranges::count_if(found.results, [](const auto& r) { return !r; });
     if (missing > 0) {
-        const auto first =
-            std::find_if(found.results.begin(), found.results.end(), [](const auto& r) { return !r; });
+        const auto first = std::ranges::find_if(found.results, [](const auto& r) { return !r; });
         diagnostics.error(
             {},
             fmt::format("{}{} of {} runs have no result yet, such as '{}'",

@@ -45,15 +45,15 @@ Places places_of(const Axis& axis) {
     double least = std::numeric_limits<double>::infinity(), most = 0;
     for (const double n : numbers)
         if (n > 0) least = std::min(least, n), most = std::max(most, n);
-    const bool zero = std::find(numbers.begin(), numbers.end(), 0.0) != numbers.end();
-    if (most <= 30 * least || *std::min_element(numbers.begin(), numbers.end()) < 0) return {numbers};
+    const bool zero = std::ranges::find(numbers, 0.0) != numbers.end();
+    if (most <= 30 * least || *std::ranges::min_element(numbers) < 0) return {numbers};
     const double low = std::log10(least), aside = 0.18 * (std::log10(most) - low);
     for (double& n : numbers) n = n > 0 ? std::log10(n) : low - aside;
     return {numbers, true, zero ? std::optional(low - aside / 2) : std::nullopt};
 }
 
 std::size_t index_of(const std::vector<std::string>& values, const std::string& value) {
-    return static_cast<std::size_t>(std::find(values.begin(), values.end(), value) - values.begin());
+    return static_cast<std::size_t>(std::ranges::find(values, value) - values.begin());
 }
 
 /// "threshold = 0.2; means of 2 to 3 runs", from the part of the table and the estimates in a picture.
@@ -96,10 +96,8 @@ plot::Picture curve(const RunTable& table, const std::vector<Axis>& axes, std::s
         estimates.push_back(estimate(c.numbers(measure)));
         out.lines[line->second].points.push_back({places.at[x.value_of(c)], estimates.back()});
     }
-    for (auto& line : out.lines)
-        std::sort(line.points.begin(), line.points.end(),
-                  [](const auto& a, const auto& b) { return a.x < b.x; });
-    std::sort(out.x_ticks.begin(), out.x_ticks.end());
+    for (auto& line : out.lines) std::ranges::sort(line.points, {}, &plot::LinesPlot::Point::x);
+    std::ranges::sort(out.x_ticks);
     out.subtitle = with_intervals(subtitle_of(table.part, estimates));
     return plot::lines_plot(out);
 }
@@ -116,8 +114,8 @@ plot::Picture heat(const RunTable& table, const std::vector<Axis>& axes, std::si
 }
 
 bool has_numbers(const RunTable& table, std::size_t measure) {
-    return std::any_of(table.rows.begin(), table.rows.end(),
-                       [&](const auto& row) { return row.measures[measure].has_value(); });
+    return std::ranges::any_of(table.rows,
+                               [&](const auto& row) { return row.measures[measure].has_value(); });
 }
 
 using Numbers = std::vector<std::optional<double>>;
@@ -157,7 +155,7 @@ std::vector<std::string> usual_plots(const RunTable& table, const std::string& d
     const auto conditions = conditions_of(table).size();
     const bool runs = has_runs(directory);
     const auto any = [&](const char* file) {
-        return runs && std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+        return runs && std::ranges::any_of(table.rows, [&](const auto& row) {
                    return fs::exists(fmt::format("{}/runs/{}/{}", directory, row.run, file));
                });
     };
@@ -270,7 +268,7 @@ std::optional<plot::Picture> draw_learning(const PlotSpec& spec, const std::vect
             estimates.push_back(y);
         }
     }
-    if (std::none_of(estimates.begin(), estimates.end(), [](const auto& e) { return e.has_value(); })) {
+    if (std::ranges::none_of(estimates, [](const auto& e) { return e.has_value(); })) {
         diagnostics.error({}, fmt::format("'{}': no trial has a number", spec.text),
                           "docs/reference/results.md says when a column of trials.csv is empty");
         return std::nullopt;

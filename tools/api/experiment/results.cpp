@@ -92,7 +92,7 @@ Results open_results(const std::string& path) {
                 observe::is_recording(name) && !name.starts_with("trials") && !name.starts_with("trajectory");
             if (recording && entry.is_regular_file()) files.push_back(entry.path());
         }
-        std::sort(files.begin(), files.end());
+        std::ranges::sort(files);
         for (const auto& f : files) add_recording(f, known, out);
     } else if (const auto end = fs::path(path).extension(); end == ".iqr" || end == ".iqrProcess") {
         out.input.system = path;

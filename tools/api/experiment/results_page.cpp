@@ -94,7 +94,7 @@ std::string results_page(const std::string& directory) {
         else
             others.push_back(entry.path());
     }
-    for (auto* files : {&pictures, &tables, &others, &folders}) std::sort(files->begin(), files->end());
+    for (auto* files : {&pictures, &tables, &others, &folders}) std::ranges::sort(*files);
     std::stable_partition(pictures.begin(), pictures.end(), shows_all_runs);
     const std::string title = xml::encoded(fs::weakly_canonical(directory).filename().string());
     std::string out = fmt::format(R"(<!DOCTYPE html>
@@ -150,7 +150,7 @@ std::vector<std::string> pictures_below(const std::string& directory) {
         else if (plot::format_of(path.filename().string()) && path.parent_path() != fs::path(directory))
             out.push_back(path.lexically_relative(directory).string());
     }
-    std::sort(out.begin(), out.end());
+    std::ranges::sort(out);
     return out;
 }
 

@@ -67,7 +67,7 @@ RunTable read_run_table(const std::string& directory) {
     RunTable out;
     if (!in.read_header()) in.require_whole(), in.refuse("it is empty");
     const std::vector<std::string> names(in.fields().begin(), in.fields().end());
-    const auto seed = static_cast<std::size_t>(std::find(names.begin(), names.end(), "seed") - names.begin());
+    const auto seed = static_cast<std::size_t>(std::ranges::find(names, "seed") - names.begin());
     auto first = seed + 4;  // seed, status, cycles, seconds
     out.trials = names.size() > first && names[first] == "trials";
     if (out.trials) first += 2;
@@ -120,7 +120,7 @@ void keep_runs(RunTable& table, const std::vector<std::string>& where, Diagnosti
         for (const auto& row : table.rows)
             if (known.insert(value_of(row, p)).second) values.push_back(value_of(row, p));
         const auto number = parse_number<double>(value);
-        const auto found = std::find_if(values.begin(), values.end(), [&](const std::string& v) {
+        const auto found = std::ranges::find_if(values, [&](const std::string& v) {
             return v == value || (number && parse_number<double>(v) == number);
         });
         if (found == values.end()) {
@@ -134,8 +134,8 @@ void keep_runs(RunTable& table, const std::vector<std::string>& where, Diagnosti
     if (diagnostics.failed()) return;
     table.part = separated(parts, ", ");
     std::erase_if(table.rows, [&](const RunTable::Row& row) {
-        return !std::all_of(wanted.begin(), wanted.end(), [&](const auto& w) {
-            return std::any_of(wanted.begin(), wanted.end(), [&](const auto& other) {
+        return !std::ranges::all_of(wanted, [&](const auto& w) {
+            return std::ranges::any_of(wanted, [&](const auto& other) {
                 return other.first == w.first && other.second == value_of(row, w.first);
             });
         });

@@ -42,7 +42,7 @@ std::vector<TutorialExercise> read_tutorial(const fs::path& folder, Diagnostics&
             exercise.solution = fs::path(experiment->systems.front().text).lexically_normal();
         read_note(experiment->note, exercise);
     }
-    std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.number < b.number; });
+    std::ranges::sort(out, [](const auto& a, const auto& b) { return a.number < b.number; });
     return out;
 }
 

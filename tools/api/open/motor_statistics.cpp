@@ -16,14 +16,11 @@ MotorStatistics::MotorStatistics(const Run& run, const bug::World& world) : worl
         if (m.type.name != "moduleGazeboBug") continue;
         const auto& inputs = m.ports.inputs;
         const auto port =
-            std::find_if(inputs.begin(), inputs.end(), [](const auto& p) { return p.port == "_motor"; }) -
-            inputs.begin();
+            std::ranges::find_if(inputs, [](const auto& p) { return p.port == "_motor"; }) - inputs.begin();
         const int group = m.input_groups[static_cast<std::size_t>(port)];
-        const auto process = std::find_if(processes.begin(), processes.end(),
-                                          [&](const auto& p) { return p.id == m.process_id; });
+        const auto process = std::ranges::find(processes, m.process_id, &model::Process::id);
         const auto& settings = process->module->settings;
-        const auto name = std::find_if(settings.begin(), settings.end(),
-                                       [](const auto& s) { return s.name == "device_name"; });
+        const auto name = std::ranges::find(settings, "device_name", &model::Setting::name);
         if (group < 0 || name == settings.end()) continue;
         const auto robot = world.find(name->value);
         if (!robot) continue;
@@ -53,7 +50,7 @@ void MotorStatistics::after_cycle(RunView& run) {
         const auto winner = bug::motor_winner(activities);
         if (!winner) continue;
         ++m.won[*winner];
-        m.tied += std::count(activities.begin(), activities.end(), activities[*winner]) > 1;
+        m.tied += std::ranges::count(activities, activities[*winner]) > 1;
     }
 }
 
@@ -71,8 +68,7 @@ std::vector<std::string> MotorStatistics::sentences() const {
 std::string MotorStatistics::sentence(const Motor& m) const {
     constexpr std::size_t most = 6;
     std::vector<std::pair<std::uint64_t, std::uint64_t>> cells(m.won.begin(), m.won.end());
-    std::stable_sort(cells.begin(), cells.end(),
-                     [](const auto& a, const auto& b) { return a.second > b.second; });
+    std::ranges::stable_sort(cells, [](const auto& a, const auto& b) { return a.second > b.second; });
     const auto share = [&](std::uint64_t count) {
         const double percent = 100 * static_cast<double>(count) / static_cast<double>(m.cycles);
         return percent < 1 ? std::string("below 1 %") : fmt::format("{:.0f} %", percent);

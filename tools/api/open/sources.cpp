@@ -76,8 +76,7 @@ void play(const DriveTable& table, model::System& system) {
     for (auto& p : system.processes) {
         if (!p.module || p.module->type != "moduleReplay") continue;
         auto& settings = p.module->settings;
-        const auto file =
-            std::find_if(settings.begin(), settings.end(), [](const auto& s) { return s.name == "file"; });
+        const auto file = std::ranges::find(settings, "file", &model::Setting::name);
         if (file == settings.end())
             settings.push_back({"file", table.file()->path, {}, {}});
         else if (file->value.empty())
@@ -127,8 +126,8 @@ void bind_robots(const std::vector<model::Expression>& bindings, const Registry&
                                       : "write the system's robot, '=', and the world's robot: Bug=A_1");
             continue;
         }
-        const auto driver = std::find_if(drivers.begin(), drivers.end(),
-                                         [&](const auto& d) { return !d.bound && d.robot == name; });
+        const auto driver =
+            std::ranges::find_if(drivers, [&](const auto& d) { return !d.bound && d.robot == name; });
         if (driver == drivers.end()) {
             std::vector<std::string> names;
             for (const auto& d : drivers)

@@ -36,8 +36,8 @@ void check_replay(const DriveTable& table, const model::System& system, Diagnost
     }
     std::set<std::string> reported;
     for (const auto& row : table.rows()) {
-        const bool played = std::any_of(outputs.begin(), outputs.end(),
-                                        [&](const auto& o) { return replay::plays(row, o.first, o.second); });
+        const bool played = std::ranges::any_of(
+            outputs, [&](const auto& o) { return replay::plays(row, o.first, o.second); });
         const std::string target = row.process + "," + row.target;
         if (!played && reported.insert(target).second)
             diagnostics.error({table.file(), row.line, row.column},
