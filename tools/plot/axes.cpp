@@ -48,13 +48,30 @@ std::string Ticks::name(double value) const {
     return fmt::format("{:.{}f}", value, decimals);
 }
 
+void draw_titles(Canvas& canvas, const std::string& title, const std::string& subtitle) {
+    canvas.text(12, 22, title, 15, 0, black, true);
+    canvas.text(12, 40, subtitle, 12, 0, grey);
+}
+
+double width_of_titles(Canvas& canvas, const std::string& title, const std::string& subtitle) {
+    return 24 + std::max(canvas.width_of(title, 15, true), canvas.width_of(subtitle, 12));
+}
+
+void clip(Canvas& canvas, const Box& box) {
+    cairo_rectangle(canvas.cairo(), box.x, box.y, box.width, box.height);
+    cairo_clip(canvas.cairo());
+}
+
+void draw_frame(Canvas& canvas, const Box& box, const Colour& colour) {
+    cairo_set_line_width(canvas.cairo(), 1);
+    canvas.colour(colour);
+    cairo_rectangle(canvas.cairo(), box.x - 0.5, box.y - 0.5, box.width + 1, box.height + 1);
+    cairo_stroke(canvas.cairo());
+}
+
 void draw_axes(Canvas& canvas, const Axes& axes, const AxisStyle& x, const AxisStyle& y) {
     const Box& b = axes.box;
-    cairo_set_line_width(canvas.cairo(), 1);
-    canvas.colour(black);
-    cairo_rectangle(canvas.cairo(), b.x - 0.5, b.y - 0.5, b.width + 1, b.height + 1);
-    cairo_stroke(canvas.cairo());
-
+    draw_frame(canvas, b, black);
     double free_from = -1e9;
     for (const auto& [v, name] :
          ticks_of(x, axes.x, static_cast<int>(b.width / (axes.x.size() < 100 ? 40 : 80)) + 1)) {
@@ -104,10 +121,7 @@ Colour ColourScale::operator()(double value) const {
 void draw_colour_bar(Canvas& canvas, const ColourScale& scale, const Box& box, const std::string& title) {
     const int steps = std::max(2, static_cast<int>(box.height));
     draw_cells(canvas, box, 1, steps, [&](int, int row) { return scale.at(1 - row / (steps - 1.0)); });
-    cairo_set_line_width(canvas.cairo(), 1);
-    canvas.colour(black);
-    cairo_rectangle(canvas.cairo(), box.x - 0.5, box.y - 0.5, box.width + 1, box.height + 1);
-    cairo_stroke(canvas.cairo());
+    draw_frame(canvas, box, black);
     const Axes axes{box, {0, 1}, scale.interval()};
     const Ticks ticks(axes.y, std::max(2, static_cast<int>(box.height / 45)));
     double widest = 0;

@@ -48,6 +48,16 @@ struct Axes {
     }
 };
 
+/// Draws the title of a picture and, below it, a subtitle.
+void draw_titles(Canvas& canvas, const std::string& title, const std::string& subtitle);
+/// The width that the titles of a picture need.
+double width_of_titles(Canvas& canvas, const std::string& title, const std::string& subtitle);
+
+/// Restricts what is drawn to a box, until cairo_restore().
+void clip(Canvas& canvas, const Box& box);
+/// Draws a line around a box.
+void draw_frame(Canvas& canvas, const Box& box, const Colour& colour);
+
 struct AxisStyle {
     std::string title;
     bool whole = false;                                      ///< whether ticks are only at whole numbers

@@ -86,12 +86,10 @@ Picture connection_plot(const ConnectionPlot& plot) {
     const double left = std::max(78.0, beside + 12), gap = std::max(22.0, beside + 10);
     const double step = left + width + gap + bar + colour_bar_labels;
     const double room = std::max({step * static_cast<double>(panels.size()),
-                                  24 + measure.canvas().width_of(plot.title, 15, true),
-                                  24 + measure.canvas().width_of(plot.subtitle, 12), 420.0});
+                                  width_of_titles(measure.canvas(), plot.title, plot.subtitle), 420.0});
     return {
         room, top + tall + bottom, [=](Canvas& canvas) {
-            canvas.text(12, 22, plot.title, 15, 0, black, true);
-            canvas.text(12, 40, plot.subtitle, 12, 0, grey);
+            draw_titles(canvas, plot.title, plot.subtitle);
             double x = left;
             for (const auto& p : panels) {
                 const Box box{x, top, width, height};

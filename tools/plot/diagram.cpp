@@ -131,14 +131,13 @@ std::vector<std::string> lines_of(Canvas& canvas, const std::string& text, doubl
 
 void draw(Canvas& canvas, const Node& n) {
     cairo_t* c = canvas.cairo();
-    const double dash[] = {4, 3};
-    cairo_set_dash(c, dash, n.outside || n.disabled ? 2 : 0, 0);
+    if (n.outside || n.disabled) canvas.dashes(4, 3);
     cairo_set_line_width(c, n.process ? 2.5 : 1);
     canvas.fill(n.box.x, n.box.y, n.box.width, n.box.height, n.outside ? Colour{0.96, 0.96, 0.96} : white);
     canvas.colour(n.outside ? grey : black);
     cairo_rectangle(c, n.box.x, n.box.y, n.box.width, n.box.height);
     cairo_stroke(c);
-    cairo_set_dash(c, nullptr, 0, 0);
+    canvas.dashes(0, 0);
     auto lines = lines_of(canvas, n.name, n.box.width - 6);
     lines.resize(std::min(lines.size(), static_cast<std::size_t>(std::max(1.0, n.box.height / 14 - 1))));
     double y = n.centre().y - static_cast<double>(lines.size()) * 7 + 4;

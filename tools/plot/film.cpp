@@ -46,8 +46,7 @@ class Film::Screen {
         canvas.text(film_margin, 20, title, 14, 0, black, true);
         draw_legend(canvas, world, film_margin, width_ - film_margin, height_ - 9);
         panel_.draw_names(canvas, panel_left(), film_head);
-        cairo_rectangle(context.get(), film_margin, film_head, map_.width(), map_.height());
-        cairo_clip(context.get());
+        clip(canvas, map_.axes().box);
         map_.draw_ground(canvas);
         map_.draw_marks(canvas);
         map_.draw_targets(canvas);
@@ -58,8 +57,7 @@ class Film::Screen {
         cairo_set_source_surface(c, ground_.get(), 0, 0);
         cairo_paint(c);
         cairo_save(c);
-        cairo_rectangle(c, film_margin, film_head, map_.width(), map_.height());
-        cairo_clip(c);
+        clip(canvas_, map_.axes().box);
         map_.draw_movable_objects(canvas_);
         for (std::size_t i = 0; i < world_.bugs(); ++i) map_.draw_robot(canvas_, i, true);
         if (world_.bugs() > 1)

@@ -37,12 +37,10 @@ Picture heat_map(const HeatMap& map) {
     const double bar = std::max(box.height, 110.0);
     const double width =
         std::max({box.right() + 22 + 16 + colour_bar_labels, box.x + (box.width + title) / 2 + 12,
-                  24 + measure.canvas().width_of(map.title, 15, true),
-                  24 + measure.canvas().width_of(map.subtitle, 12)});
+                  width_of_titles(measure.canvas(), map.title, map.subtitle)});
     return {width, top + bar + 50,
             [=, x_ticks = ticks(map.x_names, wide + 10), y_ticks = ticks(map.y_names, 16)](Canvas& canvas) {
-                canvas.text(12, 22, map.title, 15, 0, black, true);
-                canvas.text(12, 40, map.subtitle, 12, 0, grey);
+                draw_titles(canvas, map.title, map.subtitle);
                 const auto at = [&](int column, int row) -> const auto& {
                     return map.cells[static_cast<std::size_t>((rows - 1 - row) * columns + column)];
                 };

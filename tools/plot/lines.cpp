@@ -127,13 +127,11 @@ Picture lines_plot(const LinesPlot& plot) {
         plot.x_ticks.empty() ? 0 : measure.canvas().width_of(plot.x_ticks.back().second, 12) / 2;
     const double right = std::max(wide > 0 ? 52 + wide : 24, last);
     const double tall = 10 + 20 * static_cast<double>(names.size() + 1);
-    const double width =
-        std::max({lines_left + lines_width + right, 24 + measure.canvas().width_of(plot.title, 15, true),
-                  24 + measure.canvas().width_of(plot.subtitle, 12)});
+    const double width = std::max(
+        {lines_left + lines_width + right, width_of_titles(measure.canvas(), plot.title, plot.subtitle)});
     return {
         width, lines_top + std::max(lines_height + lines_bottom, legend ? tall : 0), [=](Canvas& canvas) {
-            canvas.text(12, 22, plot.title, 15, 0, black, true);
-            canvas.text(12, 40, plot.subtitle, 12, 0, grey);
+            draw_titles(canvas, plot.title, plot.subtitle);
             for (std::size_t i = 0; i < plot.lines.size(); ++i)
                 draw_interval(canvas, axes, plot.lines[i], category(i));
             for (std::size_t i = 0; i < plot.lines.size(); ++i)

@@ -194,19 +194,16 @@ Picture occupancy_plot(const bug::World& world, const std::vector<PathsOf>& cond
         "{}{}{}cells of {:.2g} m{}", part, part.empty() ? "" : "; ", one ? panels[0].count + "; " : "", cell,
         panels[0].means.empty() ? "" : "; white: the mean path from each start");
     const double width =
-        std::max({right + 22 + 16 + colour_bar_labels, 24 + measure.canvas().width_of(title, 15, true),
-                  24 + measure.canvas().width_of(subtitle, 12)});
+        std::max({right + 22 + 16 + colour_bar_labels, width_of_titles(measure.canvas(), title, subtitle)});
     return {width, bottom + occupancy_bottom, [=](Canvas& canvas) {
-                canvas.text(12, 22, title, 15, 0, black, true);
-                canvas.text(12, 40, subtitle, 12, 0, grey);
+                draw_titles(canvas, title, subtitle);
                 for (const auto& p : panels) {
                     double at = p.box.y - 7 - name_line * static_cast<double>(p.name.size());
                     for (const auto& line : p.name)
                         if (!one) canvas.text(p.box.x, at, line, name_text), at += name_line;
                     if (!one) canvas.text(p.box.x, p.box.y - 7, p.count, 11, 0, grey);
                     cairo_save(canvas.cairo());
-                    cairo_rectangle(canvas.cairo(), p.box.x, p.box.y, p.box.width, p.box.height);
-                    cairo_clip(canvas.cairo());
+                    clip(canvas, p.box);
                     p.map->draw_ground(canvas);
                     draw_shares(canvas, p.crossed, p.box, columns, rows, scale);
                     p.map->draw_movable_objects(canvas);
@@ -214,9 +211,7 @@ Picture occupancy_plot(const bug::World& world, const std::vector<PathsOf>& cond
                     for (const auto& path : p.means) draw_path(canvas, *p.map, path);
                     p.map->draw_targets(canvas);
                     cairo_restore(canvas.cairo());
-                    draw_axes(canvas,
-                              {p.box, {view.min().x(), view.max().x()}, {view.min().y(), view.max().y()}},
-                              {"x (m)"}, {"y (m)"});
+                    draw_axes(canvas, p.map->axes(), {"x (m)"}, {"y (m)"});
                 }
                 const Box bar{right + 22, top, 16, panels[0].box.height};
                 draw_colour_bar(canvas, scale, bar, "share of the paths");

@@ -256,8 +256,7 @@ void draw_footprint(Canvas& canvas, const Box& box, const Footprint& seen, doubl
     const auto px = [&](double left) { return x0 - left * scale; };
     const auto py = [&](double ahead) { return y0 - ahead * scale; };
     cairo_save(c);
-    cairo_rectangle(c, box.x, box.y, box.width, box.height);
-    cairo_clip(c);
+    clip(canvas, box);
     draw_disc(canvas, x0, y0, radius * scale);
     cairo_restore(c);
     canvas.colour(camera_colour, 0.18);

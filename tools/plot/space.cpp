@@ -85,11 +85,10 @@ Picture sheet_of(const SpacePlot& plot, std::vector<SpaceFrame> frames, const Co
             ? fmt::format("cycle {}{}{}", frames[0].cycle, plot.subtitle.empty() ? "" : " · ", plot.subtitle)
             : plot.subtitle;
     Measure measure;
-    const double width = std::max({sheet.width, 24 + measure.canvas().width_of(plot.title, 15, true),
-                                   24 + measure.canvas().width_of(subtitle, 12), 260.0});
+    const double width =
+        std::max({sheet.width, width_of_titles(measure.canvas(), plot.title, subtitle), 260.0});
     return {width, sheet.height, [=](Canvas& canvas) {
-                canvas.text(12, 22, plot.title, 15, 0, black, true);
-                canvas.text(12, 40, subtitle, 12, 0, grey);
+                draw_titles(canvas, plot.title, subtitle);
                 for (std::size_t i = 0; i < frames.size(); ++i)
                     draw_panel(canvas, plot, frames[i], scale, sheet.panel(i), frames.size() == 1);
                 if (frames.size() > 1) {

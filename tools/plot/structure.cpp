@@ -37,7 +37,7 @@ std::vector<double> strengths(const model::Connection& c, const connectivity::Sy
         for (double& v : out) v *= instance->gain();
         return out;
     }
-    const auto weight = std::ranges::find_if(type.states, [](const auto& s) { return s.name == "weight"; });
+    const auto weight = std::ranges::find(type.states, "weight", &SynapseStateInfo::name);
     if (weight == type.states.end()) return out;
     ConstColumn learned(nullptr, 0);
     for (int i = 0; simulation && i < std::ssize(simulation->layout().connections); ++i)

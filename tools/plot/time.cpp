@@ -46,18 +46,12 @@ std::string time_title(const TimePlot& plot) {
     return plot.seconds_per_cycle > 0 ? fmt::format("cycle (of {:.3g} s)", plot.seconds_per_cycle) : "cycle";
 }
 
-void draw_titles(Canvas& canvas, const TimePlot& plot) {
-    canvas.text(12, 22, plot.title, 15, 0, black, true);
-    canvas.text(12, 40, plot.subtitle, 12, 0, grey);
-}
-
 void draw_marks(Canvas& canvas, const TimePlot& plot, const Axes& axes, const Colour& colour) {
-    const double dash[] = {2, 3};
-    cairo_set_dash(canvas.cairo(), dash, 2, 0);
+    canvas.dashes(2, 3);
     for (const double m : plot.marks)
         if (m >= axes.x.low && m <= axes.x.high)
             canvas.line(axes.px(m), axes.box.y, axes.px(m), axes.box.bottom(), colour);
-    cairo_set_dash(canvas.cairo(), nullptr, 0, 0);
+    canvas.dashes(0, 0);
 }
 
 void draw_curve(Canvas& canvas, const Axes& axes, const Curve& curve, const Colour& colour) {
@@ -102,13 +96,12 @@ Picture lines(const TimePlot& plot) {
     const Axes axes{{time_left, time_top, time_width, 320}, cycles_of(plot), values_of(plot)};
     const std::vector<Curve> curves(plot.curves.begin(), plot.curves.end());
     return {time_left + time_width + right, time_top + 320 + time_bottom, [=](Canvas& canvas) {
-                draw_titles(canvas, plot);
+                draw_titles(canvas, plot.title, plot.subtitle);
                 if (axes.y.low < 0 && axes.y.high > 0)
                     canvas.line(axes.box.x, axes.py(0), axes.box.right(), axes.py(0), pale);
                 draw_marks(canvas, plot, axes, {0.6, 0.6, 0.6});
                 cairo_save(canvas.cairo());
-                cairo_rectangle(canvas.cairo(), axes.box.x, axes.box.y, axes.box.width, axes.box.height);
-                cairo_clip(canvas.cairo());
+                clip(canvas, axes.box);
                 for (std::size_t i = 0; i < curves.size(); ++i)
                     draw_curve(canvas, axes, curves[i], category(i));
                 cairo_restore(canvas.cairo());
@@ -121,10 +114,9 @@ Picture lines(const TimePlot& plot) {
                     canvas.text(x + 27, y + 4, curves[i].name(), 12);
                 }
                 if (!marked) return;
-                const double dash[] = {2, 3};
-                cairo_set_dash(canvas.cairo(), dash, 2, 0);
+                canvas.dashes(2, 3);
                 canvas.line(x + 10, y - 7, x + 10, y + 7, {0.6, 0.6, 0.6});
-                cairo_set_dash(canvas.cairo(), nullptr, 0, 0);
+                canvas.dashes(0, 0);
                 canvas.text(x + 27, y + 4, plot.mark_name, 12);
             }};
 }
@@ -171,7 +163,7 @@ Picture rows(const TimePlot& plot) {
     return {
         time_left + time_width + 22 + 16 + colour_bar_labels, time_top + bar + time_bottom,
         [=](Canvas& canvas) {
-            draw_titles(canvas, shown);
+            draw_titles(canvas, shown.title, shown.subtitle);
             draw_cells(canvas, axes.box, static_cast<int>(time_width), count, [&](int column, int r) {
                 const auto& row_of = values[static_cast<std::size_t>(r)];
                 return row_of.empty() ? grey : scale(row_of[static_cast<std::size_t>(column)]);

@@ -38,8 +38,7 @@ class Drawing {
     void draw(Canvas& canvas, const std::string& title) {
         canvas_ = &canvas;
         cairo_save(c());
-        cairo_rectangle(c(), left, top, map_.width(), map_.height());
-        cairo_clip(c());
+        clip(canvas, map_.axes().box);
         map_.draw_ground(canvas);
         map_.draw_movable_objects(canvas);
         map_.draw_marks(canvas);
@@ -48,7 +47,7 @@ class Drawing {
                 if (paths_[i].reached == reached) draw_path(i);
         map_.draw_targets(canvas);
         cairo_restore(c());
-        draw_axes();
+        draw_axes(canvas, map_.axes(), {"x (m)"}, {"y (m)"});
         draw_legend();
         canvas.text(12, 22, title, 15, 0, black, true);
     }
@@ -102,14 +101,6 @@ class Drawing {
         }
     }
 
-    void draw_axes() {
-        const Eigen::AlignedBox2d& view = map_.view();
-        const Axes axes{{left, top, map_.width(), map_.height()},
-                        {view.min().x(), view.max().x()},
-                        {view.min().y(), view.max().y()}};
-        plot::draw_axes(*canvas_, axes, {"x (m)"}, {"y (m)"});
-    }
-
     void draw_legend() {
         const double x = px(map_.view().max().x()) + 16;
         double y = top + 14;
@@ -139,13 +130,12 @@ class Drawing {
             y += 54;
         }
         const auto outline = [&](double dash, auto shape) {
-            const double dashes[] = {dash, dash};
-            cairo_set_dash(c(), dashes, 2, 0);
+            canvas_->dashes(dash, dash);
             cairo_set_line_width(c(), 1.2);
             cairo_set_source_rgb(c(), 0.3, 0.3, 0.3);
             shape();
             cairo_stroke(c());
-            cairo_set_dash(c(), nullptr, 0, 0);
+            canvas_->dashes(0, 0);
         };
         if (!world_.targets().empty())
             entry("target", [&] { outline(2, [&] { cairo_arc(c(), x + 7, y, 6, 0, 2 * M_PI); }); });

@@ -47,9 +47,7 @@ void draw_field(Canvas& canvas, const WiringPlot& plot, std::span<const double> 
     canvas.colour(white);
     cairo_set_line_width(c, 1);
     cairo_stroke(c);
-    canvas.colour(grey);
-    cairo_rectangle(c, box.x - 0.5, box.y - 0.5, box.width + 1, box.height + 1);
-    cairo_stroke(c);
+    draw_frame(canvas, box, grey);
 }
 
 Picture drawn_with(const ColourScale& scale, const WiringPlot& plot, std::vector<double> fields) {
@@ -75,8 +73,7 @@ Picture drawn_with(const ColourScale& scale, const WiringPlot& plot, std::vector
         std::max({left + width + bar_gap + bar_width + colour_bar_labels, 560.0,
                   24 + Measure().canvas().width_of(legend, 12)}),
         top + std::max(height, 110.0) + bottom, [=, fields = std::move(fields)](Canvas& canvas) {
-            canvas.text(12, 22, plot.title, 15, 0, black, true);
-            canvas.text(12, 40, plot.subtitle, 12, 0, grey);
+            draw_titles(canvas, plot.title, plot.subtitle);
             canvas.text(12, 57, legend, 12, 0, grey);
             for (int row = 0; row < target.height; ++row)
                 for (int column = 0; column < target.width; ++column) {

@@ -87,6 +87,12 @@ WorldMap::WorldMap(const bug::World& world, const Box& extra, double pixels, dou
     scale_ = pixels / view_.sizes().maxCoeff();
 }
 
+Axes WorldMap::axes() const {
+    return {{left_, top_, width(), height()},
+            {view_.min().x(), view_.max().x()},
+            {view_.min().y(), view_.max().y()}};
+}
+
 void WorldMap::draw_ground(Canvas& canvas) const {
     canvas.fill(left_, top_, width(), height(), {0.5, 0.5, 0.5});
     try {
@@ -278,22 +284,16 @@ Picture world_plot(const bug::World& world, const std::string& title) {
     const WorldMap map(world, {}, 800, left, top);
     return {left + std::floor(map.width()) + right, top + std::floor(map.height()) + bottom,
             [map, &world, title](Canvas& canvas) {
-                cairo_t* c = canvas.cairo();
-                cairo_save(c);
-                cairo_rectangle(c, left, top, map.width(), map.height());
-                cairo_clip(c);
+                cairo_save(canvas.cairo());
+                clip(canvas, map.axes().box);
                 map.draw_ground(canvas);
                 map.draw_marks(canvas);
                 map.draw_movable_objects(canvas);
                 for (std::size_t i = 0; i < world.bugs(); ++i) map.draw_robot(canvas, i, true);
                 map.draw_targets(canvas);
                 draw_robot_names(canvas, world, map);
-                cairo_restore(c);
-                plot::draw_axes(canvas,
-                                {{left, top, map.width(), map.height()},
-                                 {map.view().min().x(), map.view().max().x()},
-                                 {map.view().min().y(), map.view().max().y()}},
-                                {"x (m)"}, {"y (m)"});
+                cairo_restore(canvas.cairo());
+                draw_axes(canvas, map.axes(), {"x (m)"}, {"y (m)"});
                 draw_legend(canvas, world, left, left + map.width(), top + map.height() + 66);
                 canvas.text(12, 22, title, 15, 0, black, true);
             }};

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "bug_interface/simulation/world.h"
-#include "tools/plot/canvas.h"
+#include "tools/plot/axes.h"
 
 namespace forage::plot {
 
@@ -28,6 +28,7 @@ class WorldMap {
     double height() const { return view_.sizes().y() * scale_; }  ///< pixels
     const Box& view() const { return view_; }                     ///< m
     double scale() const { return scale_; }                       ///< pixels per metre
+    Axes axes() const;                                            ///< those of the whole map, in m
     double px(double x) const { return left_ + (x - view_.min().x()) * scale_; }
     double py(double y) const { return top_ + (view_.max().y() - y) * scale_; }
 
