@@ -77,6 +77,15 @@ CLI::Option* repeated(CLI::Option* option) {
     return option->expected(1)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+CLI::Option* add_texts(CLI::App& command, const char* name, std::vector<model::Expression>& list,
+                       const char* description, const char* value) {
+    const auto add = [&list](const std::vector<std::string>& texts) {
+        for (const auto& text : texts) list.push_back({text});
+    };
+    return repeated(command.add_option_function<std::vector<std::string>>(name, add, description))
+        ->option_text(value);
+}
+
 CLI::Option* add_plot_format(CLI::App& command, std::string& format) {
     return command.add_option("--plot-format", format, "Format of pictures: png, svg or pdf [png]")
         ->check(one_of({"png", "svg", "pdf"}))
@@ -106,23 +115,14 @@ void add_input(CLI::App& command, RunInput& input) {
     command.add_option("-w,--world", input.world, "World in which the robot lives (.world)")
         ->check([](const std::string& name) { return name.empty() ? "no file is named" : std::string(); })
         ->option_text("FILE");
-    repeated(command.add_option_function<std::vector<std::string>>(
-                 "-s,--set",
-                 [&input](const std::vector<std::string>& texts) {
-                     for (const auto& text : texts) input.settings.push_back({text});
-                 },
-                 "Change a parameter: 'Process/Group.parameter=value', 'Process.parameter=value' for a "
-                 "module, 'Connection.parameter=value' for a synapse; may be repeated"))
-        ->option_text("WHERE=VALUE");
-    repeated(
-        command.add_option_function<std::vector<std::string>>(
-            "--robot",
-            [&input](const std::vector<std::string>& texts) {
-                for (const auto& text : texts) input.robots.push_back({text});
-            },
-            "Let the system's robot NAME (device_name) be another robot of the world; when several systems "
-            "have a robot NAME, it is the first one that no earlier --robot has bound; may be repeated"))
-        ->option_text("NAME=ROBOT");
+    add_texts(command, "-s,--set", input.settings,
+              "Change a parameter: 'Process/Group.parameter=value', 'Process.parameter=value' for a "
+              "module, 'Connection.parameter=value' for a synapse; may be repeated",
+              "WHERE=VALUE");
+    add_texts(command, "--robot", input.robots,
+              "Let the system's robot NAME (device_name) be another robot of the world; when several systems "
+              "have a robot NAME, it is the first one that no earlier --robot has bound; may be repeated",
+              "NAME=ROBOT");
     add_plugins(command, input.plugins);
     command.add_flag("--lenient", input.lenient,
                      "Warnings instead of errors for what the original accepts: unknown parameters and "

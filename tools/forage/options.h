@@ -21,6 +21,9 @@ CLI::Validator one_of(std::vector<std::string> names);
 std::vector<std::string> current_names(std::vector<std::string> words);
 /// Makes an option repeatable, with one value each time.
 CLI::Option* repeated(CLI::Option* option);
+/// Adds a repeatable option; each of its values is added to `list`.
+CLI::Option* add_texts(CLI::App& command, const char* name, std::vector<model::Expression>& list,
+                       const char* description, const char* value);
 CLI::Option* add_plot_format(CLI::App& command, std::string& format);
 void add_plugins(CLI::App& command, std::vector<std::string>& plugins);
 /// Adds the options for systems, world, settings and plugins.

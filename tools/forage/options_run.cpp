@@ -104,14 +104,10 @@ void add_recording(CLI::App& run, RunSpec& o) {
         ->transform(seed())
         ->option_text("CYCLE")
         ->needs(record);
-    repeated(run.add_option_function<std::vector<std::string>>(
-                 "-p,--plot",
-                 [&o](const std::vector<std::string>& texts) {
-                     for (const auto& text : texts) o.plots.push_back({text});
-                 },
-                 "Draw a picture: 'time:SOURCE', 'space:SOURCE@CYCLES', 'movie:SOURCE', 'connection:NAME' or "
-                 "'diagram', see 'forage plot --help'; may be repeated"))
-        ->option_text("PLOT");
+    add_texts(run, "-p,--plot", o.plots,
+              "Draw a picture: 'time:SOURCE', 'space:SOURCE@CYCLES', 'movie:SOURCE', 'connection:NAME' or "
+              "'diagram', see 'forage plot --help'; may be repeated",
+              "PLOT");
     add_plot_format(run, o.plot_format);
 }
 
@@ -145,13 +141,8 @@ void add_network(CLI::App& run, RunSpec& o) {
         ->check(CLI::Range(40, 10000))
         ->option_text("MS")
         ->needs(broadcast);
-    repeated(run.add_option_function<std::vector<std::string>>(
-                 "--broadcast-group",
-                 [&o](const std::vector<std::string>& texts) {
-                     for (const auto& text : texts) o.broadcast.sources.push_back({text});
-                 },
-                 "Send the average of this group, as for --record, instead of all; may be repeated"))
-        ->option_text("SOURCE")
+    add_texts(run, "--broadcast-group", o.broadcast.sources,
+              "Send the average of this group, as for --record, instead of all; may be repeated", "SOURCE")
         ->needs(broadcast);
 }
 
