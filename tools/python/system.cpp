@@ -119,11 +119,9 @@ py::object edit_system(PythonSystem& self, const py::object& operations) {
 
 py::object edit_the_file(const Path& path, const py::object& operations, const std::optional<Path>& save_as,
                          const std::vector<Path>& plugins) {
-    std::vector<std::string> all;
-    for (const auto& p : plugins) all.push_back(p.string());
     Diagnostics warnings;
-    auto made =
-        edit_file(path.string(), as_json(operations), save_as ? save_as->string() : "", all, &warnings);
+    auto made = edit_file(path.string(), as_json(operations), save_as ? save_as->string() : "",
+                          texts_of(plugins), &warnings);
     warn(warnings);
     return from_json(made);
 }
