@@ -1,6 +1,6 @@
 // Connects the server with the stores. Everything that changes a run goes through `command`.
 import { CommandError, Connection, type Arguments, type CommandName, type Result } from './connection';
-import { protocolVersion, type ServerMessage, type SystemMessage, type TypesResult } from './protocol/messages';
+import { protocolVersion, type ServerMessage, type SystemMessage } from './protocol/messages';
 import type { Frame } from './protocol/frame';
 import { editing } from './edit/document.svelte';
 import { endedText } from './edit/ended';
@@ -95,7 +95,7 @@ function receive(message: ServerMessage): void {
       break;
     case 'world':
       model.world = message.file === null ? null : message;
-      void worldFile.load(); // another world, another file; what is not saved of it is shown everywhere
+      void loadWorldFile();
       break;
     case 'status':
       // What was refused may be there after a change.
@@ -108,6 +108,17 @@ function receive(message: ServerMessage): void {
       if (ended) actions.tell('info', ended);
       break;
     }
+  }
+}
+
+/** Loads the file of the world. The top bar shows whether it has unsaved changes, so no panel needs to be open. */
+async function loadWorldFile(): Promise<void> {
+  try {
+    worldFile.document = await request('world_document');
+    worldFile.missing = '';
+  } catch (error) {
+    worldFile.document = null;
+    worldFile.missing = (error as Error).message;
   }
 }
 
