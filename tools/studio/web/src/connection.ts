@@ -6,7 +6,7 @@ import { problemText, type Problem, type ServerMessage } from './protocol/messag
 export type Link = 'connecting' | 'open' | 'lost';
 
 /** What the connection tells its owner. */
-export interface ConnectionEvents {
+interface ConnectionEvents {
   link(state: Link): void;
   message(message: ServerMessage): void;
   /** Frames that arrived since the last animation frame, oldest first. */

@@ -2,7 +2,7 @@
 import type { Connection } from './connection';
 import type { Block, Frame } from './protocol/frame';
 
-export type Delivery = 'latest' | 'append';
+type Delivery = 'latest' | 'append';
 export type Listener = (block: Block, frame: Frame) => void;
 
 interface Stream {

@@ -1,7 +1,7 @@
 // The title of the browser's window: it tells windows apart, also those of copies of one system.
 import { baseName } from './edit/document.svelte';
 
-export interface Shown {
+interface Shown {
   /** Name of the system. */
   name: string;
   /** Path of its file; empty while it has none. */

@@ -4,7 +4,7 @@ import { robotColour, type LiveWorld, type Pose, type Thing } from './live';
 import type { Trail } from './trail';
 
 /** Between metres and pixels of the canvas. */
-export interface View { s: number; px(x: number): number; py(y: number): number; wx(p: number): number; wy(p: number): number }
+interface View { s: number; px(x: number): number; py(y: number): number; wx(p: number): number; wy(p: number): number }
 
 /** Shows a rectangle of the world, or a part of it around a centre. */
 export function viewOf(box: number[], width: number, height: number, zoom: number, centre: { x: number; y: number }): View {
@@ -107,7 +107,7 @@ function drawTrail(c: Context, t: View, trail: Trail, colour: string, dash: numb
 }
 
 /** Brighter where the robot senses more. */
-export const rayColour = (light: boolean, activity: number): string =>
+const rayColour = (light: boolean, activity: number): string =>
   light ? `rgb(255 226 92 / ${0.1 + 0.85 * Math.min(1, 2 * activity)})` : `rgb(120 170 220 / ${0.1 + 0.8 * Math.min(1, 2 * activity)})`;
 
 function drawRays(c: Context, t: View, scan: ArrayLike<number>): void {

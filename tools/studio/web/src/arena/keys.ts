@@ -1,7 +1,7 @@
 // What keys do in the arena.
 import type { Pose, Thing } from './live';
 
-export interface Step { x: number; y: number; turn: number }
+interface Step { x: number; y: number; turn: number }
 
 /** How far a key moves a thing: m, and rad to the left. Null for other keys. */
 export function stepOf(key: string, large: boolean): Step | null {

@@ -9,10 +9,10 @@ export interface Pose { x: number; y: number; yaw: number; resetting: boolean }
 /** A robot, an object or a light that can be moved. A light is moved in the world's file, and has its place there; its index is below 0. */
 export interface Thing { index: number; kind: 'robot' | 'object' | 'light'; name: string; radius: number; place?: Pose }
 /** A light as the world's file has it. */
-export interface Light { id: string; x: number; y: number; yaw: number }
+interface Light { id: string; x: number; y: number; yaw: number }
 
 /** Colours of the robots and of their trails. */
-export const robotColours = ['#4aa3ff', '#ffb14a', '#7ddc8a', '#e58be0'];
+const robotColours = ['#4aa3ff', '#ffb14a', '#7ddc8a', '#e58be0'];
 export const robotColour = (i: number): string => robotColours[i % robotColours.length]!;
 
 export const thingsOf = (world: WorldMessage, lights: Light[] = []): Thing[] => [

@@ -45,5 +45,5 @@ export function cssColour(name: MapName, fraction: number): string {
 }
 
 /** Colours of lines, distinguishable also with a colour vision deficiency (Okabe and Ito). */
-export const lineColours = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#56b4e9', '#e69f00', '#8c564b', '#8c8c8c'];
+const lineColours = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#56b4e9', '#e69f00', '#8c564b', '#8c8c8c'];
 export const lineColour = (i: number): string => lineColours[i % lineColours.length]!;

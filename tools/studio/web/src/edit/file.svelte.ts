@@ -9,10 +9,10 @@ import { CommandError } from '../connection';
 import { baseName, editing, folderOf, sendAll } from './document.svelte';
 import { worldFile } from './world.svelte';
 
-export type FileAction = 'open' | 'save as' | 'import' | 'link' | 'export' | 'new' | 'world' | 'save the world' | 'other';
+type FileAction = 'open' | 'save as' | 'import' | 'link' | 'export' | 'new' | 'world' | 'save the world' | 'other';
 
 /** What a panel does with a file that is chosen; `ending` is added to a name without it. */
-export interface FileTask { title: string; verb: string; ending: string; name?: string; act(file: string, overwrite: boolean): Promise<unknown> }
+interface FileTask { title: string; verb: string; ending: string; name?: string; act(file: string, overwrite: boolean): Promise<unknown> }
 
 class FileDialog {
   action = $state<FileAction | null>(null);
@@ -170,10 +170,6 @@ export async function saveWorld(): Promise<void> {
 const inWorld = () => worldFile.document !== null && dock.shows('world');
 export const saveActive = () => (inWorld() && worldFile.dirty ? saveWorld() : save());
 export const saveActiveAs = () => fileDialog.open(inWorld() ? 'save the world' : 'save as');
-
-export async function openFile(file: string): Promise<void> {
-  if (mayLeave()) await command('open', { system: file });
-}
 
 /** What both this page and another program have changed, when a merge was tried; empty otherwise. */
 class Outside { conflict = $state('') }

@@ -35,7 +35,7 @@ export interface PageLine {
   vertices: Point[];
   list: VertexList;
 }
-export type VertexList = Exclude<keyof ConnectionLine, 'source_anchor' | 'target_anchor'>;
+type VertexList = Exclude<keyof ConnectionLine, 'source_anchor' | 'target_anchor'>;
 
 export interface Page { boxes: PageBox[]; lines: PageLine[] }
 

@@ -1,7 +1,7 @@
 // Which ports of the module of a process a group is connected to.
 import type { Process } from '../protocol/messages';
 
-export interface ModuleLinks {
+interface ModuleLinks {
   /** Ports that write the group. */
   from: string[];
   /** Ports that read it. */

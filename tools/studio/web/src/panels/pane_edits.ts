@@ -14,7 +14,7 @@ import type { Point } from './line';
 import type { StageApi } from './Stage.svelte';
 
 /** The pane as it is now; `process` is null on the page of the system. */
-export interface Pane {
+interface Pane {
   readonly uid: string;
   readonly process: Process | null;
   readonly boxes: Map<string, PageBox>;

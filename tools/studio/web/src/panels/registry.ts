@@ -19,7 +19,7 @@ export interface PanelProps {
   setTitle(title: string): void;
 }
 
-export interface PanelKind {
+interface PanelKind {
   title(panel: PanelState): string;
   load(): Promise<{ default: Component<PanelProps> }>;
 }

@@ -1,5 +1,4 @@
 // The buttons of values that one tries: the one with the value in force is pressed.
-import type { ItemParameters } from '../protocol/messages';
 import { request } from '../studio';
 
 /** Of the active set-up below `body`; others may be about another system. */

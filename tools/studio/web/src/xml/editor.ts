@@ -11,9 +11,9 @@ import { tags } from '@lezer/highlight';
 import { overClosingTags } from './closing';
 import { marksOf, unitsBefore } from './marks';
 import type { Problem } from '../protocol/messages';
-import { suggest, type Suggestion, type Suggestions } from './suggest';
+import type { Suggestion, Suggestions } from './suggest';
 
-export interface EditorOptions {
+interface EditorOptions {
   text: string;
   label: string;
   /** The id of an element that says how to leave the editor. */

@@ -1,6 +1,6 @@
 // The elements of an XML text, also of one that is being written and is not well-formed.
 
-export interface Attribute { name: string; value: string }
+interface Attribute { name: string; value: string }
 export interface Tag {
   name: string;
   /** Where its '<' stands. */
@@ -11,7 +11,7 @@ export interface Tag {
 }
 
 /** What can be written at a place of a text. */
-export type Place =
+type Place =
   | { kind: 'content'; parent: Tag | null }
   | { kind: 'element'; parent: Tag | null; from: number }
   | { kind: 'close'; parent: Tag | null; from: number }

@@ -3,7 +3,7 @@ import type { AttributeRule, FormParameter, TypeInfo, TypesResult, Vocabulary } 
 import { all, around, scan, valueOf, type Tag } from './scan';
 import { elementRule } from './vocabulary';
 
-export interface KnownGroup { id: string; path: string; neuron: string; process: string }
+interface KnownGroup { id: string; path: string; neuron: string; process: string }
 export interface Knowledge { vocabulary: Vocabulary; types: TypesResult; /** The groups of the system, which the text may name. */ groups: KnownGroup[] }
 
 export interface Suggestion {
