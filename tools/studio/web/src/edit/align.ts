@@ -15,11 +15,23 @@ function chosen(): Placed[] {
 }
 const place = (boxes: Placed[], title: string) => edit(boxes.map((b) => ({ do: 'place', id: b.id, x: b.x, y: b.y })), title);
 
-export const align = (side: Edge) => place(aligned(chosen(), side), 'Align');
-export const distribute = (axis: 'x' | 'y') => place(distributed(chosen(), axis), 'Distribute');
+const align = (side: Edge) => place(aligned(chosen(), side), 'Align');
+const distribute = (axis: 'x' | 'y') => place(distributed(chosen(), axis), 'Distribute');
+
+/** What arranges the selected boxes, each with the smallest number of boxes that it needs. */
+export const arrangements: { label: string; minBoxes: number; act(): unknown }[] = [
+  { label: 'Align left', minBoxes: 2, act: () => align('left') },
+  { label: 'Align right', minBoxes: 2, act: () => align('right') },
+  { label: 'Align top', minBoxes: 2, act: () => align('top') },
+  { label: 'Align bottom', minBoxes: 2, act: () => align('bottom') },
+  { label: 'Align centres in a column', minBoxes: 2, act: () => align('column') },
+  { label: 'Align centres in a row', minBoxes: 2, act: () => align('row') },
+  { label: 'Distribute horizontally', minBoxes: 3, act: () => distribute('x') },
+  { label: 'Distribute vertically', minBoxes: 3, act: () => distribute('y') },
+];
 
 /** Lays out the page that is shown, from left to right along the connections; its lines lose their vertices. */
-export async function arrange(): Promise<void> {
+export async function layOutPage(): Promise<void> {
   const system = model.system;
   if (!system) return;
   const process = model.processes.find((p) => p.id === selection.process) ?? null;

@@ -9,7 +9,7 @@ import { CommandError } from '../connection';
 import { baseName, editing, folderOf, sendAll } from './document.svelte';
 import { worldFile } from './world.svelte';
 
-type FileAction = 'open' | 'save as' | 'import' | 'link' | 'export' | 'new' | 'world' | 'save the world' | 'other';
+export type FileAction = 'open' | 'save as' | 'import' | 'link' | 'export' | 'new' | 'world' | 'save the world' | 'other';
 
 /** What a panel does with a file that is chosen; `ending` is added to a name without it. */
 interface FileTask { title: string; verb: string; ending: string; name?: string; act(file: string, overwrite: boolean): Promise<unknown> }
@@ -141,23 +141,26 @@ export async function quit(): Promise<void> {
   }
 }
 
-export async function save(): Promise<void> {
+/** Sends the edits that the server does not have yet. Shows why and returns false when one cannot be sent. */
+async function sendPending(): Promise<boolean> {
   try {
     await sendAll();
+    return true;
   } catch (e) {
-    return actions.tell('error', (e as Error).message);
+    actions.tell('error', (e as Error).message);
+    return false;
   }
+}
+
+export async function save(): Promise<void> {
+  if (!(await sendPending())) return;
   if (!editing.file || editing.shipped || editing.backupOf) return fileDialog.open('save as');
   if (await command('save')) actions.tell('info', worldFile.dirty ? 'The system is saved, its world is not.' : 'Saved.');
 }
 
 /** Writes the system as it is now into a file beside it. */
 export async function backup(): Promise<void> {
-  try {
-    await sendAll();
-  } catch (e) {
-    return actions.tell('error', (e as Error).message);
-  }
+  if (!(await sendPending())) return;
   const done = await command('backup');
   if (done) actions.tell('info', `The backup is ${baseName(done.file)}.`);
 }
