@@ -4,7 +4,7 @@ import { frame } from './stores/frame.svelte';
 import { model } from './stores/model.svelte';
 import { actions } from './stores/actions.svelte';
 import { problemText, type LayoutContent } from './protocol/messages';
-import type { PanelState } from './panels/registry';
+import { isPlot, type PanelState } from './panels/registry';
 
 interface Preset { name: string; hint: string; spaces: string[]; times: string[]; raster?: string[]; weights?: boolean; diagram?: boolean }
 
@@ -48,9 +48,6 @@ export function toggleTutorial(): void {
 const tutorialWidth = () => Math.round(Math.min(440, Math.max(300, (dock.api?.width ?? 0) * 0.36)));
 
 const kindOf = (panel: { params?: unknown }) => (panel.params as PanelState).kind;
-
-/** Whether a panel shows a part of the system. */
-export const isPlot = (panel: PanelState): boolean => !['arena', 'diagram', 'tutorial', 'log', 'text'].includes(panel.kind);
 
 /** Closes the panels that show a part of the system. */
 export function closePlots(): void {

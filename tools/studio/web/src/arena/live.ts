@@ -26,6 +26,14 @@ export const thingsOf = (world: WorldMessage, lights: Light[] = []): Thing[] => 
   ...lights.map((l, k) => ({ index: -1 - k, kind: 'light' as const, name: l.id, radius: 0.1, place: { x: l.x, y: l.y, yaw: l.yaw, resetting: false } })),
 ];
 
+/** Calls `listener` whenever one of the worlds changes. Returns the function that ends this. */
+export function onChange(worlds: LiveWorld[], listener: () => void): () => void {
+  for (const world of worlds) world.changed = listener;
+  return () => {
+    for (const world of worlds) if (world.changed === listener) world.changed = () => {};
+  };
+}
+
 export class LiveWorld {
   /** Called when something is new. */
   changed: () => void = () => {};

@@ -1,13 +1,17 @@
 // Heat maps on a small canvas: one pixel per cell, enlarged by the browser without smoothing.
 import { colourTable, type MapName } from './colours';
 
-/** Draws values row by row, one pixel per cell. Cells without a value stay transparent. */
-export function drawHeat(canvas: HTMLCanvasElement, values: ArrayLike<number>, columns: number, rows: number, low: number, high: number, map: MapName): void {
+/** Gives a canvas a size in pixels, and returns an empty image of that size; null for an empty size. */
+function resize(canvas: HTMLCanvasElement, columns: number, rows: number): ImageData | null {
   if (canvas.width !== columns) canvas.width = columns;
   if (canvas.height !== rows) canvas.height = rows;
-  const context = canvas.getContext('2d');
-  if (!context || columns * rows === 0) return;
-  const image = context.createImageData(columns, rows);
+  return columns * rows > 0 ? (canvas.getContext('2d')?.createImageData(columns, rows) ?? null) : null;
+}
+
+/** Draws values row by row, one pixel per cell. Cells without a value stay transparent. */
+export function drawHeat(canvas: HTMLCanvasElement, values: ArrayLike<number>, columns: number, rows: number, low: number, high: number, map: MapName): void {
+  const image = resize(canvas, columns, rows);
+  if (!image) return;
   const pixels = new Uint32Array(image.data.buffer);
   const table = colourTable(map);
   const factor = high > low ? 255 / (high - low) : 0;
@@ -16,21 +20,18 @@ export function drawHeat(canvas: HTMLCanvasElement, values: ArrayLike<number>, c
     const v = values[i]!;
     if (v === v) pixels[i] = table[Math.max(0, Math.min(255, Math.round((v - low) * factor)))]!;
   }
-  context.putImageData(image, 0, 0);
+  canvas.getContext('2d')!.putImageData(image, 0, 0);
 }
 
 /** Draws bytes, three per pixel. */
 export function drawPicture(canvas: HTMLCanvasElement, bytes: ArrayLike<number>, columns: number, rows: number): void {
-  if (canvas.width !== columns) canvas.width = columns;
-  if (canvas.height !== rows) canvas.height = rows;
-  const context = canvas.getContext('2d');
-  if (!context || columns * rows === 0) return;
-  const image = context.createImageData(columns, rows);
+  const image = resize(canvas, columns, rows);
+  if (!image) return;
   for (let i = 0, o = 0; o < image.data.length && i < bytes.length; o += 4) {
     image.data[o] = bytes[i++]!;
     image.data[o + 1] = bytes[i++]!;
     image.data[o + 2] = bytes[i++]!;
     image.data[o + 3] = 255;
   }
-  context.putImageData(image, 0, 0);
+  canvas.getContext('2d')!.putImageData(image, 0, 0);
 }

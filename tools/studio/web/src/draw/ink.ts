@@ -1,5 +1,8 @@
 // The colour of a comment on the canvas, and which ink can be read on it.
 
+/** A colour like "#AABBCC" as it is; null for anything else. */
+export const hexColour = (colour: string): string | null => (/^#[0-9a-f]{6}$/i.test(colour) ? colour : null);
+
 /** The colour of a comment that has none of its own. */
 export const paper = (dark: boolean): string => (dark ? '#413a1d' : '#fdf3c7');
 

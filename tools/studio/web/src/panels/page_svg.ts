@@ -1,5 +1,5 @@
 // A page of the diagram as a picture of its own: the boxes and lines as they are drawn, in light colours, without the activity.
-import { inkOn, paper } from '../draw/ink';
+import { hexColour, inkOn, paper } from '../draw/ink';
 import { escape } from '../draw/save';
 import type { CanvasComment, Group, Process } from '../protocol/messages';
 import { pointsOf, type PageBox, type PageLine } from './diagram';
@@ -33,12 +33,12 @@ function boxSvg(b: PageBox, process: Process | null): string {
   const rect = (style: string) => `<rect x="${number(box.x)}" y="${number(box.y)}" width="${number(box.width)}" height="${number(box.height)}" ${style}/>`;
   if (b.comment) {
     const { text, color } = b.item as CanvasComment;
-    const own = /^#[0-9a-f]{6}$/i.test(color);
-    return rect(`rx="3" fill="${own ? color : paper(false)}"`) + texts(box, wrapped(text, Math.floor((box.width - 14) / 6), Math.floor(box.height / 15)), 12, `fill="${own ? inkOn(color) : ink}"`, 4);
+    const own = hexColour(color);
+    return rect(`rx="3" fill="${own ?? paper(false)}"`) + texts(box, wrapped(text, Math.floor((box.width - 14) / 6), Math.floor(box.height / 15)), 12, `fill="${own ? inkOn(own) : ink}"`, 4);
   }
   const item = b.item as Group | Process;
   if (b.phantom) return rect(`rx="7" fill="#f4f3ef" stroke="${muted}" stroke-dasharray="4 3"`) + texts(box, wrapped((item as Group).path.replace('/', '/ '), 15, 2).map((l) => l.replace('/ ', '/')), 10, `fill="${ink}"`, 2);
-  const own = /^#[0-9a-f]{6}$/i.test(item.color) && !/^#f{6}$/i.test(item.color);
+  const own = hexColour(item.color) && !/^#f{6}$/i.test(item.color);
   const about = 'groups' in item ? [`${item.groups.length} ${item.groups.length === 1 ? 'group' : 'groups'}`, ...(item.module ? [item.enabled ? 'module' : 'module off'] : []), ...(item.linked ? ['linked'] : [])] : [item.places ? `${item.cells} cells` : `${item.width} × ${item.height}`];
   const links = process && !('groups' in item) ? moduleLinks(process, item.id) : { from: [], to: [] };
   const lines = wrapped(item.name, links.from.length ? 10 : 12, 3);

@@ -24,6 +24,9 @@ interface PanelKind {
   load(): Promise<{ default: Component<PanelProps> }>;
 }
 
+/** Whether a panel shows a part of the system. */
+export const isPlot = (panel: PanelState): boolean => !['arena', 'diagram', 'tutorial', 'log', 'text'].includes(panel.kind);
+
 const group = (panel: PanelState) => model.group(panel.item ?? '')?.path ?? panel.item ?? '';
 const connection = (panel: PanelState) => model.connection(panel.item ?? '')?.name ?? panel.item ?? '';
 

@@ -1,13 +1,7 @@
-// How sources are written, "mean(Bug/Light:vm(1..3,1))", and how they are dragged from plot to plot.
+// How sources are written: "mean(Bug/Light:vm(1..3,1))".
 
 /** How many single cells become traces of one plot. */
 export const mostTraces = 24;
-
-const dragged = 'text/x-forage-sources';
-export const dragSources = (e: DragEvent, sources: string[]) => e.dataTransfer?.setData(dragged, JSON.stringify(sources));
-/** The sources that are dropped; empty for anything else. */
-export const droppedSources = (e: DragEvent): string[] => JSON.parse(e.dataTransfer?.getData(dragged) || '[]') as string[];
-export const bringsSources = (e: DragEvent): boolean => e.dataTransfer?.types.includes(dragged) ?? false;
 
 export interface Source {
   /** "Process/Group", or the name of a connection; its id where another one has the name. */

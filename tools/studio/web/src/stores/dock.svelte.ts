@@ -1,6 +1,6 @@
 // The panels in the middle. Dockview arranges them; this store opens, focuses and keeps them.
 import type { DockviewApi, DockviewGroupPanel, SerializedDockview } from 'dockview-core';
-import { kinds, type PanelState } from '../panels/registry';
+import { isPlot, kinds, type PanelState } from '../panels/registry';
 import { followed, type NameChanges } from './follow';
 import { frame } from './frame.svelte';
 
@@ -130,7 +130,7 @@ class Dock {
 
   /** Opens a plot where the other plots are, or at the right side. */
   plot(panel: PanelState): string | null {
-    const others = this.api?.panels.filter((p) => !['arena', 'diagram', 'log', 'tutorial', 'text'].includes((p.params as PanelState).kind)) ?? [];
+    const others = this.api?.panels.filter((p) => isPlot(p.params as PanelState)) ?? [];
     const last = others[others.length - 1];
     if (!last) return this.open(panel, frame.small ? { beside: this.api?.activePanel?.id } : {});
     const roomy = last.api.height > 420 && !frame.small;
