@@ -21,6 +21,14 @@ export function spanned([ax, ay]: Place, [bx, by]: Place): Region {
   return { form: 'region', x: Math.min(ax, bx), y: Math.min(ay, by), width: Math.abs(ax - bx) + 1, height: Math.abs(ay - by) + 1 };
 }
 
+/** The places together with the cells; without the cells when all of them are among the places. */
+export function toggled(places: Place[], cells: Place[]): Place[] {
+  const known = new Set(places.map(keyOf)), added = cells.filter((c) => !known.has(keyOf(c)));
+  if (added.length) return [...places, ...added];
+  const removed = new Set(cells.map(keyOf));
+  return places.filter((p) => !removed.has(keyOf(p)));
+}
+
 /** Tuples of a text as the original imports it: "1,1|2,1:3,1 4,1:5,1". */
 export function parseTuples(text: string): Tuple[] {
   return text.split(/\s+/).filter(Boolean).map((token) => {
