@@ -99,7 +99,7 @@ export function arrange(plots: PanelState[]): void {
 
 /** Arranges the panels as a layout file says. Returns whether it says anything. */
 export function applyLayout(content: LayoutContent | null | undefined): boolean {
-  for (const p of content?.problems ?? []) actions.tell('error', problemText(p));
+  for (const p of content?.problems ?? []) actions.notify('error', problemText(p));
   if (content?.dock) {
     dock.api?.fromJSON(content.dock as never);
     if (frame.small) dock.stack();

@@ -3,7 +3,7 @@ import { CommandError, Connection, type Arguments, type CommandName, type Result
 import { protocolVersion, type ServerMessage, type SystemMessage } from './protocol/messages';
 import type { Frame } from './protocol/frame';
 import { editing } from './edit/document.svelte';
-import { endedText } from './edit/ended';
+import { endedText } from './edit/ended_text';
 import { worldFile } from './edit/world.svelte';
 import { actions } from './stores/actions.svelte';
 import { dock } from './stores/dock.svelte';
@@ -24,38 +24,40 @@ const connection = new Connection(socketUrl, {
   },
   message: receive,
   frames: draw,
-  fault: (text) => actions.tell('error', `A frame of the server could not be read: ${text}`),
+  fault: (text) => actions.notify('error', `A frame of the server could not be read: ${text}`),
 });
 
 export const streams = new Streams(
   connection.request.bind(connection),
   // A group that was just drawn has no activity until the system can run.
-  (source, error) => run.link === 'open' && editing.message?.running_is_current !== false && actions.tell('error', `${source}: ${error.message}`),
+  (source, error) => run.link === 'open' && editing.message?.running_is_current !== false && actions.notify('error', `${source}: ${error.message}`),
 );
 
-/** Sends a command; the caller shows what goes wrong. */
+/** Sends a command; the caller handles an error. */
 export const request = <C extends CommandName>(name: C, ...given: Arguments<C>): Promise<Result<C>> => connection.request(name, ...given);
 
-/** Sends a command and shows the server's message when it is refused. Undefined then. */
+/** Sends a command. Shows the server's message and resolves with undefined when it is rejected. */
 export async function command<C extends CommandName>(name: C, ...given: Arguments<C>): Promise<Result<C> | undefined> {
   try {
     return await request(name, ...given);
   } catch (error) {
-    actions.tell('error', (error as Error).message);
+    actions.notify('error', (error as Error).message);
     return undefined;
   }
 }
 
-/** Takes the last step back, or does it again. That there is none is no error. */
-export async function step(back: boolean): Promise<void> {
+/** Undoes or redoes one step. An empty history is no error. */
+async function moveInHistory(name: 'undo' | 'redo'): Promise<void> {
   try {
-    await connection.request(back ? 'undo' : 'redo');
+    await request(name);
   } catch (error) {
     const nothing = error instanceof CommandError && error.reason === 'nothing';
-    actions.tell(nothing ? 'info' : 'error', (error as Error).message);
+    actions.notify(nothing ? 'info' : 'error', (error as Error).message);
   }
 }
 
+export const undo = () => moveInHistory('undo');
+export const redo = () => moveInHistory('redo');
 export const toggleRun = () => command(run.status?.running ? 'pause' : 'run');
 
 function receive(message: ServerMessage): void {
@@ -72,8 +74,8 @@ function receive(message: ServerMessage): void {
       const before = model.system, other = before?.opened !== message.opened;
       model.system = message;
       if (other) {
-        actions.begin();
-        // The panels stay for a system that is alike: what it does not have goes without a word, as Undo does not bring it back.
+        actions.beginSystem();
+        // A similar system keeps the panels. Those of missing items close without a message, as Undo does not restore them.
         if (before && alike(before, message)) dock.follow(nameChanges(before, message));
         dock.forget();
       } else if (before) follow(before, message);
@@ -98,14 +100,14 @@ function receive(message: ServerMessage): void {
       void loadWorldFile();
       break;
     case 'status':
-      // What was refused may be there after a change.
+      // A change may have added sources that the server rejected before.
       if (run.status?.generation !== message.generation) streams.retry();
       run.status = message;
       break;
     case 'action': {
       actions.add(message);
       const ended = endedText(message, run.status?.epoch);
-      if (ended) actions.tell('info', ended);
+      if (ended) actions.notify('info', ended);
       break;
     }
   }
@@ -132,22 +134,22 @@ function follow(before: SystemMessage, after: SystemMessage) {
   if (!closed.length) return;
   const items = [...changes.lost].filter(([id]) => closed.includes(id)).map(([, name]) => name);
   const panels = `${items.length > 1 ? 'their' : 'its'} ${closed.length > 1 ? `${closed.length} panels are` : 'panel is'} closed`;
-  actions.tell('info', `${items.join(', ')} ${items.length > 1 ? 'are' : 'is'} gone, and ${panels}. Undo brings back both.`);
+  actions.notify('info', `${items.join(', ')} ${items.length > 1 ? 'are' : 'is'} gone, and ${panels}. Undo brings back both.`);
 }
 
-let counted = 0;
+let frameCount = 0;
 let since = performance.now();
 
 function draw(frames: Frame[]): void {
   streams.deliver(frames);
   const newest = frames[frames.length - 1]!;
-  counted += 1;
+  frameCount += 1;
   run.superseded += frames.length - 1;
   const now = performance.now();
   if (now - since < 1000) return;
-  run.framesPerSecond = (counted * 1000) / (now - since);
+  run.framesPerSecond = (frameCount * 1000) / (now - since);
   run.lag = Math.max(0, (run.status?.cycle ?? newest.cycle) - newest.cycle);
-  counted = 0;
+  frameCount = 0;
   since = now;
 }
 

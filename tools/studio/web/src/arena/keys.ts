@@ -48,10 +48,10 @@ export class Mover {
   /** The number of the series of steps without a pause, which is undone at once. */
   private series = 0;
 
-  /** `move` asks the server, with the number of the series of steps; it fails with the reason when the place is taken. */
+  /** `move` sends a step to the server, with the number of its series; it rejects with the reason when the place is occupied. */
   constructor(
     private readonly move: (thing: Thing, to: Place, series: number) => Promise<void>,
-    private readonly tell: (text: string) => void,
+    private readonly announce: (text: string) => void,
   ) {}
 
   async step(thing: Thing, from: Place, by: Step): Promise<void> {
@@ -64,13 +64,13 @@ export class Mover {
       for (let to: { thing: Thing; place: Place } | null = this.target; to; to = this.target) {
         thing = to.thing;
         await this.move(to.thing, to.place, this.series);
-        this.tell(placeText(to.thing.name, to.place));
+        this.announce(placeText(to.thing.name, to.place));
         if (this.last) this.last.at = performance.now();
         if (this.target === to) this.target = null;
       }
     } catch (error) {
       this.target = this.last = null;
-      this.tell(`${thing.name} stays: ${(error as Error).message.split('\n')[0]}`);
+      this.announce(`${thing.name} stays: ${(error as Error).message.split('\n')[0]}`);
     } finally {
       this.busy = false;
     }

@@ -1,5 +1,5 @@
 // Where a robot has been. Points nearer than 2 cm to the last one are left out.
-const most = 12000, kept = 8000;
+const maxPoints = 12000, keptPoints = 8000;
 
 export class Trail {
   x: number[] = [];
@@ -14,7 +14,7 @@ export class Trail {
       if (n >= 0 && this.trial[n] === trial && Math.hypot(this.x[n]! - x, this.y[n]! - y) < 0.02) continue;
       this.x.push(x), this.y.push(y), this.trial.push(trial);
     }
-    if (this.x.length > most) for (const a of [this.x, this.y, this.trial]) a.splice(0, a.length - kept);
+    if (this.x.length > maxPoints) for (const a of [this.x, this.y, this.trial]) a.splice(0, a.length - keptPoints);
   }
 
   /** Calls `line` with the first and the last index of each unbroken piece, and its opacity: older trials are fainter. */

@@ -25,7 +25,7 @@ export async function copy(ids: string[], connections = true): Promise<boolean> 
   if (!result) return false;
   kept = result.text;
   await navigator.clipboard?.writeText(result.text).catch(() => {});
-  actions.tell('info', ids.length === 1 ? 'Copied.' : `Copied ${ids.length} items.`);
+  actions.notify('info', ids.length === 1 ? 'Copied.' : `Copied ${ids.length} items.`);
   return true;
 }
 
@@ -36,7 +36,7 @@ export async function cut(ids: string[]): Promise<void> {
 /** Pastes at a place of the file. `text` is what the browser's own paste brings. */
 export async function paste(at: [number, number], text?: string): Promise<void> {
   const content = text ?? (await navigator.clipboard?.readText().catch(() => kept)) ?? kept;
-  if (!content.trim()) return actions.tell('info', 'There is nothing to paste.');
+  if (!content.trim()) return actions.notify('info', 'There is nothing to paste.');
   const ids = await edit({ do: 'paste', text: content, ...(selection.process ? { process: selection.process } : {}), x: at[0], y: at[1] });
   // Connections go with their groups, and would hide them in the inspector.
   const made = ids?.filter((id): id is string => id !== null && model.find(id)?.kind !== 'connection') ?? [];

@@ -102,8 +102,8 @@ class FileDialog {
       if (action === 'save as') await sendAll();
       const done = (await steps[action]()) as { file?: string } | undefined;
       this.action = null;
-      if (action === 'world') actions.tell('info', `The run begins anew in ${baseName(file)}.`);
-      if (action.startsWith('save')) actions.tell('info', `Saved as ${baseName(done?.file ?? file)}.`);
+      if (action === 'world') actions.notify('info', `The run begins anew in ${baseName(file)}.`);
+      if (action.startsWith('save')) actions.notify('info', `Saved as ${baseName(done?.file ?? file)}.`);
     } catch (e) {
       this.error = (e as Error).message;
       if (e instanceof CommandError && e.reason === 'file_exists') this.taken = file;
@@ -137,7 +137,7 @@ export async function quit(): Promise<void> {
     // The server may be gone before it has answered.
     if (run.ended && run.link !== 'open') return;
     run.ended = false;
-    actions.tell('error', (e as Error).message);
+    actions.notify('error', (e as Error).message);
   }
 }
 
@@ -147,7 +147,7 @@ async function sendPending(): Promise<boolean> {
     await sendAll();
     return true;
   } catch (e) {
-    actions.tell('error', (e as Error).message);
+    actions.notify('error', (e as Error).message);
     return false;
   }
 }
@@ -155,18 +155,18 @@ async function sendPending(): Promise<boolean> {
 export async function save(): Promise<void> {
   if (!(await sendPending())) return;
   if (!editing.file || editing.shipped || editing.backupOf) return fileDialog.open('save as');
-  if (await command('save')) actions.tell('info', worldFile.dirty ? 'The system is saved, its world is not.' : 'Saved.');
+  if (await command('save')) actions.notify('info', worldFile.dirty ? 'The system is saved, its world is not.' : 'Saved.');
 }
 
 /** Writes the system as it is now into a file beside it. */
 export async function backup(): Promise<void> {
   if (!(await sendPending())) return;
   const done = await command('backup');
-  if (done) actions.tell('info', `The backup is ${baseName(done.file)}.`);
+  if (done) actions.notify('info', `The backup is ${baseName(done.file)}.`);
 }
 
 export async function saveWorld(): Promise<void> {
-  if (await command('world_save')) actions.tell('info', 'The world is saved; the run begins anew in it.');
+  if (await command('world_save')) actions.notify('info', 'The world is saved; the run begins anew in it.');
 }
 
 /** What the key saves: the world while its panel is the active one, else the system. */
@@ -185,6 +185,6 @@ export async function reload(keep: 'mine' | 'theirs' | 'merge'): Promise<void> {
     outside.conflict = '';
   } catch (e) {
     if (keep === 'merge' && e instanceof CommandError && e.problems.length) outside.conflict = e.problems.map((p) => p.message).join('\n');
-    else actions.tell('error', (e as Error).message);
+    else actions.notify('error', (e as Error).message);
   }
 }

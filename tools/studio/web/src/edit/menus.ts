@@ -18,8 +18,8 @@ export const removeItems = (ids: string[]) => edit({ do: 'remove', ids });
 export function properties(id: string, field: string | null = null): void {
   selection.select(id);
   frame.openInspector();
-  tools.asked = id;
-  tools.field = field;
+  tools.formToFocus = id;
+  tools.fieldToFocus = field;
 }
 
 /** Begins to write the name of an item: in its box, or in the inspector if no box shows it. */

@@ -5,14 +5,14 @@ export interface Placed { id: string; x: number; y: number; width: number; heigh
 
 /** New places of boxes, so that an edge or the middle of all is on one line. */
 export function aligned(boxes: Placed[], side: Edge): Placed[] {
-  const least = (f: (b: Placed) => number) => Math.min(...boxes.map(f));
-  const most = (f: (b: Placed) => number) => Math.max(...boxes.map(f));
+  const min = (f: (b: Placed) => number) => Math.min(...boxes.map(f));
+  const max = (f: (b: Placed) => number) => Math.max(...boxes.map(f));
   const mean = (f: (b: Placed) => number) => boxes.reduce((a, b) => a + f(b), 0) / boxes.length;
   const move: Record<Edge, (b: Placed) => Placed> = {
-    left: (b) => ({ ...b, x: least((o) => o.x) }),
-    right: (b) => ({ ...b, x: most((o) => o.x + o.width) - b.width }),
-    top: (b) => ({ ...b, y: least((o) => o.y) }),
-    bottom: (b) => ({ ...b, y: most((o) => o.y + o.height) - b.height }),
+    left: (b) => ({ ...b, x: min((o) => o.x) }),
+    right: (b) => ({ ...b, x: max((o) => o.x + o.width) - b.width }),
+    top: (b) => ({ ...b, y: min((o) => o.y) }),
+    bottom: (b) => ({ ...b, y: max((o) => o.y + o.height) - b.height }),
     column: (b) => ({ ...b, x: Math.round(mean((o) => o.x + o.width / 2) - b.width / 2) }),
     row: (b) => ({ ...b, y: Math.round(mean((o) => o.y + o.height / 2) - b.height / 2) }),
   };

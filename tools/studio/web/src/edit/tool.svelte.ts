@@ -26,10 +26,10 @@ class Tools {
   /** Groups between which the dialog connects; null when it is closed. */
   dialog = $state.raw<{ source: string | null; kind: ConnectionKind } | null>(null);
 
-  /** The item whose form is to have the cursor, when it is there. */
-  asked = $state<string | null>(null);
-  /** The port or the parameter that is to have it; without one, the first field. */
-  field: string | null = null;
+  /** The item whose form gets the focus when it is shown. */
+  formToFocus = $state<string | null>(null);
+  /** The port or parameter in it that gets the focus; null for the first field. */
+  fieldToFocus: string | null = null;
 
   connecting = $derived(this.current !== 'select' && this.current !== 'add' && this.current !== 'comment');
 

@@ -1,7 +1,7 @@
 // A page of the diagram: boxes and lines. Ids are those of the model, places those of the file, stretched by a fixed factor.
 import type { CanvasComment, Connection, ConnectionLine, Group, Icon, Process, SystemMessage } from '../protocol/messages';
 import { anchor, middleOfLongest, nearestPart, type Box, type Point } from './line';
-import { beside, firstMet, offsetOf } from './parallel';
+import { beside, firstMet, offsetOf } from './parallel_lines';
 
 /** What a unit of the file is on a page: an icon of 50 x 50 is a box of 100 x 100. */
 export const scale = 2;
@@ -249,13 +249,13 @@ export function clickedAnchor(box: Box, p: Point): number | null {
 
 /** The nearest of the 16 points around a box. */
 export function nearestAnchor(box: Box, p: Point): number {
-  let best = 0, least = Infinity;
+  let nearest = 0, distance = Infinity;
   for (let n = 0; n < 16; n++) {
     const a = anchor(box, n);
     const d = Math.hypot(a.x - p.x, a.y - p.y);
-    if (d < least) [best, least] = [n, d];
+    if (d < distance) [nearest, distance] = [n, d];
   }
-  return best;
+  return nearest;
 }
 
 /** The point of the 16 around a box that faces another box, for connections that are made without the mouse. */

@@ -10,8 +10,8 @@ const kinds = { excitatory: '#c4372c', inhibitory: '#2c62b8', modulatory: '#2f8a
 const ink = '#1f2226', muted = '#62666d', margin = 20;
 const number = (v: number) => String(+v.toFixed(2));
 
-/** The lines of a text of at most `width` characters each; a longer word is cut. At most `most` lines, the last one with dots when there are more. */
-export function wrapped(text: string, width: number, most: number): string[] {
+/** The lines of a text of at most `width` characters each; a longer word is cut. At most `maxLines` lines, the last one with dots when there are more. */
+export function wrapped(text: string, width: number, maxLines: number): string[] {
   const out: string[] = [];
   for (const paragraph of text.split('\n')) {
     let line = '';
@@ -22,7 +22,7 @@ export function wrapped(text: string, width: number, most: number): string[] {
     }
     out.push(line);
   }
-  return out.length > most ? [...out.slice(0, most - 1), `${out[most - 1]!.slice(0, width - 1)}…`] : out;
+  return out.length > maxLines ? [...out.slice(0, maxLines - 1), `${out[maxLines - 1]!.slice(0, width - 1)}…`] : out;
 }
 
 const texts = (box: Box, lines: string[], size: number, style: string, top: number) =>

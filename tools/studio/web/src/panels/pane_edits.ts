@@ -78,7 +78,7 @@ export class PaneEdits {
 
   remove(ids: string[]): void {
     if (this.removable(ids).length) void removeItems(this.removable(ids));
-    else actions.tell('info', 'A phantom stands for a group of another process: delete the group, or the connection, there.');
+    else actions.notify('info', 'A phantom stands for a group of another process: delete the group, or the connection, there.');
   }
 
   /** A place in the file for what is pasted, so that it does not lie on what is there. */
@@ -113,7 +113,7 @@ export class PaneEdits {
     const here = process?.id ?? null;
     if (!box) {
       if (tools.pending && tools.pending.page === here) tools.pending = { ...tools.pending, vertices: [...tools.pending.vertices, p] };
-    } else if (!process) actions.tell('info', 'Connections lead from group to group: open the page of a process.');
+    } else if (!process) actions.notify('info', 'Connections lead from group to group: open the page of a process.');
     else if (!tools.pending) tools.pending = { source: box.id, anchor: box.phantom ? null : clickedAnchor(box.box, p), page: process.id, vertices: [] };
     else this.connect(box, p);
   }

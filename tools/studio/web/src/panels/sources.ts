@@ -1,7 +1,7 @@
 // How sources are written: "mean(Bug/Light:vm(1..3,1))".
 
 /** How many single cells become traces of one plot. */
-export const mostTraces = 24;
+export const maxTraces = 24;
 
 export interface Source {
   /** "Process/Group", or the name of a connection; its id where another one has the name. */

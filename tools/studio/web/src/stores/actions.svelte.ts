@@ -12,8 +12,8 @@ class Actions {
   add(action: ActionMessage): void {
     this.log = [...this.log.slice(-499), { ...action, at: new Date() }];
   }
-  /** Another system is open: earlier actions are not about it. */
-  begin(): void {
+  /** Marks that another system is open: earlier actions are not about it. */
+  beginSystem(): void {
     this.begun = new Date();
   }
   /** The last action on the system that is open. */
@@ -22,7 +22,7 @@ class Actions {
     return action && action.at >= this.begun ? action : undefined;
   }
   /** Shows a message; an error stays until it is closed. */
-  tell(kind: Notice['kind'], text: string): void {
+  notify(kind: Notice['kind'], text: string): void {
     if (this.notices.some((n) => n.text === text)) return;
     const notice = { key: this.nextKey++, kind, text };
     this.notices = [...this.notices.slice(-2), notice];

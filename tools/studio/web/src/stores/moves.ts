@@ -14,7 +14,7 @@ const sides = {
 } as const;
 /** Pixels that a key moves or resizes. */
 const step = 40;
-const least = 120;
+const minSize = 120;
 
 export const floats = (p: IDockviewPanel) => p.api.location.type === 'floating';
 /** Whether the stack of a panel has other tabs. */
@@ -118,7 +118,7 @@ export function maximize(p: IDockviewPanel): void {
 export function resize(p: IDockviewPanel, wider: number, taller: number): void {
   const window = floats(p) ? windowOf(p) : undefined;
   const { width, height } = window ?? p.group.api;
-  const size = { ...(wider ? { width: Math.max(least, width + wider * step) } : {}), ...(taller ? { height: Math.max(least, height + taller * step) } : {}) };
+  const size = { ...(wider ? { width: Math.max(minSize, width + wider * step) } : {}), ...(taller ? { height: Math.max(minSize, height + taller * step) } : {}) };
   if (window) window.place(size);
   else p.group.api.setSize(size);
   dock.keep();

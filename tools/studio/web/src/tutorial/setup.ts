@@ -65,7 +65,7 @@ function showProcess(name: string): void {
 export async function setUp(setup: Setup): Promise<boolean> {
   dock.arranging = true; // so that no layout of an earlier visit comes in between
   try {
-    actions.begin(); // what was done before is not about this exercise, also when its system is the same
+    actions.beginSystem(); // what was done before is not about this exercise, also when its system is the same
     closePlots(); // the groups that they show may not be in the other system
     if (!(await command('open', { system: setup.system, world: `worlds/${setup.world}`, shipped: true }))) return false;
     for (const assignment of setup.set) {

@@ -48,7 +48,7 @@ const colours = HighlightStyle.define([
 ]);
 
 // The colours are those of the page, so light and dark need no theme each.
-const look = EditorView.theme({
+const theme = EditorView.theme({
   '&': { fontSize: '12px', color: 'var(--ink)', backgroundColor: 'var(--raised)' },
   '&.cm-focused': { outline: '2px solid var(--accent)', outlineOffset: '-2px' },
   '.cm-scroller': { fontFamily: 'var(--mono)', lineHeight: '1.45' },
@@ -131,7 +131,7 @@ export function makeEditor(parent: HTMLElement, options: EditorOptions): XmlEdit
         syntaxHighlighting(colours),
         autocompletion({ override: [source(options)], icons: false }),
         keymap.of([...closeBracketsKeymap, ...completionKeymap, ...lintKeymap, ...historyKeymap, ...defaultKeymap, indentWithTab]),
-        look,
+        theme,
         EditorView.theme({ '&': options.whole ? { height: '100%' } : { maxHeight: '420px' } }),
         EditorView.contentAttributes.of({ 'aria-label': options.label, 'aria-describedby': options.description, spellcheck: 'false', tabindex: '0' }),
         EditorView.updateListener.of((update) => {

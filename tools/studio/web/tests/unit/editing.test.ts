@@ -13,7 +13,7 @@ vi.mock('../../src/studio', () => {
 
 vi.stubGlobal('navigator', {});
 
-const { actsOn } = await import('../../src/edit/forms/acts');
+const { affectedText } = await import('../../src/edit/forms/affected_text');
 const { refusal } = await import('../../src/edit/forms/refusal');
 const { editing } = await import('../../src/edit/document.svelte');
 const { connect, setParameter } = await import('../../src/edit/operations');
@@ -136,9 +136,9 @@ describe('the fields of a form', () => {
     expect(refusal(-5, null, null)).toBe('');
   });
   it('say what acts on all selected items, and what on one', () => {
-    expect(actsOn('group', 2, 2)).toBe('Colour, neuron, cells and parameters act on the 2 selected groups; name and note act on this one only.');
-    expect(actsOn('group', 3, 2)).toBe('Colour, neuron and cells act on the 3 selected groups, parameters on the 2 of the same type; name and note act on this one only.');
-    expect(actsOn('connection', 2, 1)).toBe('Kind, synapse and feedback act on the 2 selected connections; name, note, ends, pattern, spread and parameters act on this one only.');
-    expect(actsOn('comment', 2, 2)).toBe('Colour and size act on the 2 selected comments; text acts on this one only.');
+    expect(affectedText('group', 2, 2)).toBe('Colour, neuron, cells and parameters act on the 2 selected groups; name and note act on this one only.');
+    expect(affectedText('group', 3, 2)).toBe('Colour, neuron and cells act on the 3 selected groups, parameters on the 2 of the same type; name and note act on this one only.');
+    expect(affectedText('connection', 2, 1)).toBe('Kind, synapse and feedback act on the 2 selected connections; name, note, ends, pattern, spread and parameters act on this one only.');
+    expect(affectedText('comment', 2, 2)).toBe('Colour and size act on the 2 selected comments; text acts on this one only.');
   });
 });

@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest';
-import { endedText } from '../../src/edit/ended';
+import { endedText } from '../../src/edit/ended_text';
 import { recoverCommand } from '../../src/recover';
 import type { ActionMessage } from '../../src/protocol/messages';
 

@@ -8,7 +8,7 @@ const { model } = await import('../../src/stores/model.svelte');
 const { selection } = await import('../../src/stores/selection.svelte');
 const { editing } = await import('../../src/edit/document.svelte');
 const { pageWith, reveal } = await import('../../src/edit/reveal');
-const { inWords } = await import('../../src/edit/problem_words');
+const { formProblem } = await import('../../src/edit/problem_text');
 
 beforeEach(() => {
   const process = (id: string, groups: string[]) => ({ id, name: id.toUpperCase(), groups: groups.map((g) => ({ id: g, path: `${id}/${g}` })), comments: [], module: { type: 'moduleBug', inputs: [], outputs: [] } });
@@ -44,11 +44,11 @@ describe('the page of an item', () => {
 
 describe('a problem', () => {
   it('about a port or an input is told by the name of its field', () => {
-    expect(inWords({ message: "the cross reference '_motor' of moduleBug is not set", item: 'p', port: '_motor', unset: true }).message).toBe('Motor of the module of P has no group');
-    expect(inWords({ message: "the feedback input 'postact' of synapseLearning is not set", item: 'inner', port: 'postact', unset: true }).message).toBe('Activity of the synapse of inner has no state');
+    expect(formProblem({ message: "the cross reference '_motor' of moduleBug is not set", item: 'p', port: '_motor', unset: true }).message).toBe('Motor of the module of P has no group');
+    expect(formProblem({ message: "the feedback input 'postact' of synapseLearning is not set", item: 'inner', port: 'postact', unset: true }).message).toBe('Activity of the synapse of inner has no state');
   });
   it('of another kind keeps the words of the file', () => {
     const other = { message: 'the port has another size', item: 'p', port: '_motor' };
-    expect(inWords(other)).toBe(other);
+    expect(formProblem(other)).toBe(other);
   });
 });

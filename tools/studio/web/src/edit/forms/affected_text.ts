@@ -11,7 +11,7 @@ const listed = (words: string[]) => `${words.slice(0, -1).join(', ')}${words.len
 const sentence = (words: string) => words[0]!.toUpperCase() + words.slice(1);
 
 /** A sentence for a number of selected items of a kind, of which `alike` have the type of this one, and so its parameters. */
-export function actsOn(kind: Item['kind'], selected: number, alike: number): string {
+export function affectedText(kind: Item['kind'], selected: number, alike: number): string {
   const { items } = parts[kind];
   const all = [...parts[kind].all], one = [...parts[kind].one];
   if (kind !== 'comment' && alike === selected) all.push('parameters');

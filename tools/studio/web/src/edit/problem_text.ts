@@ -1,10 +1,10 @@
-// Problems in the words of the forms, where the form can mend them.
+// Messages of problems that a form can correct.
 import type { DocumentProblem } from '../protocol/messages';
 import { model } from '../stores/model.svelte';
 import { editing } from './document.svelte';
 
-/** A port or an input that is not set, by the name of its field; the words of the file for other problems. */
-export function inWords(p: DocumentProblem): { message: string; hint?: string } {
+/** Names a missing port by the label of its field; returns other problems unchanged. */
+export function formProblem(p: DocumentProblem): { message: string; hint?: string } {
   const item = model.find(p.item);
   if (!p.unset) return p;
   if (item?.kind === 'process') {
