@@ -179,14 +179,14 @@ export default async function ({ folder, context, start, open, faults, step }) {
   const port = inspector.locator('[data-port="_motor"] select');
   const label = (await inspector.locator('[data-port="_motor"] label').innerText()).replace(/\s*\*\s*$/, '').trim();
   await port.selectOption('');
-  await page.getByRole('button', { name: 'runs an older state' }).click();
+  await page.getByRole('button', { name: 'running the last valid version' }).click();
   await find(page, 'Adaptive/UR');
   await page.getByRole('group', { name: 'Problems' }).getByRole('button', { name: `${label} of the module of Bug has no group` }).click();
   await until(page, 'the field of the port', () => document.activeElement?.closest('[data-port="_motor"]') != null);
   await page.keyboard.press('Escape');
   await canvas.focus();
   await page.keyboard.press('Control+z');
-  await page.getByRole('button', { name: 'runs an older state' }).waitFor({ state: 'detached' });
+  await page.getByRole('button', { name: 'running the last valid version' }).waitFor({ state: 'detached' });
 
   step('Ctrl+K has the actions of the menus; a backup is written beside the file');
   await find(page, 'Save a backup');

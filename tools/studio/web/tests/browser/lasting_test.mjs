@@ -32,7 +32,7 @@ export default async function ({ folder, start, open, step }) {
   const again = await open(await second.address);
   await again.getByText("This system's last session was not closed.").waitFor();
   assert.equal(await cycle(again), 0);
-  await again.getByRole('button', { name: 'Go on with it' }).click();
+  await again.getByRole('button', { name: 'Resume it' }).click();
   await until(again, 'cycle 7', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '7');
   await again.getByRole('group', { name: /^Space plot of .*\/CS$/ }).waitFor();
   await again.getByRole('button', { name: 'End comparison' }).waitFor();
