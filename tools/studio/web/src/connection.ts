@@ -5,7 +5,7 @@ import { problemText, type Problem, type ServerMessage } from './protocol/messag
 
 export type Link = 'connecting' | 'open' | 'lost';
 
-/** What the connection tells its owner. */
+/** The events of a connection. */
 interface ConnectionEvents {
   link(state: Link): void;
   message(message: ServerMessage): void;

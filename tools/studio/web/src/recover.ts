@@ -1,5 +1,5 @@
-// How the user goes on after the server has died.
+// How the user resumes a session after the server has died.
 const quoted = (path: string) => (/^[\w./-]+$/.test(path) ? path : `'${path.replace(/'/g, `'\\''`)}'`);
 
-/** The command that goes on with the session of a system, in the shell. */
+/** The shell command that resumes the session of a system. */
 export const recoverCommand = (system: string, world: string): string => `forage studio ${system ? quoted(system) : 'FILE'}${world ? ` --world ${quoted(world)}` : ''} --recover`;

@@ -45,19 +45,19 @@ export class Streams {
     };
   }
 
-  /** Subscribes anew to everything, after the connection was lost or another system was opened. */
+  /** Renews all subscriptions after the connection was lost or another system was opened. */
   resume(): void {
     // A server that opened another system still has the streams whose sources are in it, too.
     for (const id of this.byId.keys()) this.request('unsubscribe', { stream: id }).catch(() => {});
     this.byId.clear();
     for (const stream of this.byKey.values()) {
       delete stream.last;
-      // What another system does not have stays silent.
+      // Sources that the other system does not have are not reported.
       this.send(stream, () => {});
     }
   }
 
-  /** Subscribes to what the run did not have until now, as the system was edited. The other streams go on. */
+  /** Retries the rejected subscriptions: an edit may have added their sources. The other streams continue. */
   retry(): void {
     for (const stream of this.byKey.values()) if (stream.refused) this.send(stream, () => {});
   }

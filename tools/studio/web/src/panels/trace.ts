@@ -24,7 +24,7 @@ export class Trace {
   add(block: Block, epoch: number, secondsPerCycle: number, every = 1): void {
     if (block.rows === 0) return;
     if (epoch !== this.epoch) {
-      // The run began anew, or went back: what follows belongs to another course of it.
+      // The run was restarted or went back: later rows replace those from here on.
       const first = block.values[0]! * secondsPerCycle;
       const keep = this.x.findIndex((t) => t >= first);
       if (this.epoch !== -1 && keep !== -1) this.x.length = this.y.length = keep;

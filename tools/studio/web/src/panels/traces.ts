@@ -10,7 +10,7 @@ export class Traces {
   constructor(private readonly subscribe: Subscribe) {}
 
   /**
-   * Follows these sources and no others; a trace goes on while its key stays. Each row has `every` cycles. Calls `changed` when there are
+   * Follows these sources and no others; a trace continues while its key stays. Each row has `every` cycles. Calls `changed` when there are
    * new rows, and says whether some before them were lost. Returns the function that ends it.
    */
   follow(sources: string[], keys: string[], secondsPerCycle: number, every: number, changed: (lost: boolean) => void): () => void {

@@ -13,7 +13,7 @@ class Dock {
   active = $state<string | null>(null);
   /** Whether panels are being arranged for a system that is opened; its kept layout does not come back then. */
   arranging = false;
-  /** Keeps the arrangement for the next visit, after changes of which dockview tells nothing. */
+  /** Keeps the arrangement for the next visit, after changes that dockview does not report. */
   keep: () => void = () => {};
   /** How the panels stood when the window had room for columns. */
   wide: SerializedDockview | null = null;

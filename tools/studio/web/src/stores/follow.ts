@@ -37,7 +37,7 @@ export function nameChanges(before: SystemMessage, after: SystemMessage): NameCh
   for (const [id, name] of old) {
     const next = now.get(id);
     if (next === undefined) out.lost.set(id, name);
-    // A name that several items had does not tell which of them a panel shows.
+    // A name that several items had does not identify the item of a panel.
     if (several.has(name)) continue;
     if (next === undefined) {
       if (!taken.has(name)) out.gone.set(name, id);

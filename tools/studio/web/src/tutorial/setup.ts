@@ -61,7 +61,7 @@ function showProcess(name: string): void {
   selection.process = process.id;
 }
 
-/** Returns whether all could be done; what could not is told by `command`. */
+/** Returns whether every step succeeded; `command` shows the error of the one that failed. */
 export async function setUp(setup: Setup): Promise<boolean> {
   dock.arranging = true; // so that no layout of an earlier visit comes in between
   try {

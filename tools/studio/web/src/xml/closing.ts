@@ -11,7 +11,7 @@ export function closingAhead(before: string, after: string): { from: number; to:
   return { from: found[1]!.length, to: found[0].length, name: found[2]! };
 }
 
-/** What is left of a closing tag that the editor ended, and that the user types as well. The cursor stands at its end. */
+/** What is left of a closing tag that the editor wrote and the user types again. The cursor stands at its end. */
 const setRest = StateEffect.define<string>();
 const rest = StateField.define<string>({
   create: () => '',

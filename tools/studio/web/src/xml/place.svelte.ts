@@ -1,4 +1,4 @@
-// The panel with the text of the system, and the place in it that is asked for.
+// The panel with the text of the system, and the place that it scrolls to.
 import { editing } from '../edit/document.svelte';
 import { dock } from '../stores/dock.svelte';
 import { frame } from '../stores/frame.svelte';
