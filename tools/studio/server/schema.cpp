@@ -62,20 +62,43 @@ std::string range_in_words(const ValueType& type) {
     return low ? fmt::format(" of at least {}", type.low) : "";
 }
 
+ValueType of_kind(Kind kind) {
+    ValueType out;
+    out.kind = kind;
+    return out;
+}
+
+ValueType in_range(Kind kind, double low, double high) {
+    auto out = of_kind(kind);
+    out.low = low, out.high = high;
+    return out;
+}
+
 }  // namespace
 
-ValueType any(std::string typescript_name) { return {.typescript_name = std::move(typescript_name)}; }
-ValueType boolean() { return {.kind = Kind::boolean}; }
-ValueType whole(double low, double high) { return {.kind = Kind::whole, .low = low, .high = high}; }
-ValueType number(double low, double high) { return {.kind = Kind::number, .low = low, .high = high}; }
-ValueType text() { return {.kind = Kind::text}; }
-ValueType choice(std::vector<std::string> choices) {
-    return {.kind = Kind::choice, .choices = std::move(choices)};
+ValueType any(std::string typescript_name) {
+    ValueType out;
+    out.typescript_name = std::move(typescript_name);
+    return out;
 }
-ValueType list(ValueType element) { return {.kind = Kind::list, .element = {std::move(element)}}; }
+ValueType boolean() { return of_kind(Kind::boolean); }
+ValueType whole(double low, double high) { return in_range(Kind::whole, low, high); }
+ValueType number(double low, double high) { return in_range(Kind::number, low, high); }
+ValueType text() { return of_kind(Kind::text); }
+ValueType choice(std::vector<std::string> choices) {
+    auto out = of_kind(Kind::choice);
+    out.choices = std::move(choices);
+    return out;
+}
+ValueType list(ValueType element) {
+    auto out = of_kind(Kind::list);
+    out.element.push_back(std::move(element));
+    return out;
+}
 ValueType record(std::vector<Member> members, std::string typescript_name) {
-    return {
-        .kind = Kind::record, .members = std::move(members), .typescript_name = std::move(typescript_name)};
+    auto out = of_kind(Kind::record);
+    out.members = std::move(members), out.typescript_name = std::move(typescript_name);
+    return out;
 }
 Member optional(std::string name, ValueType type, json otherwise, std::string doc) {
     return {std::move(name), std::move(type), std::move(doc), std::move(otherwise)};

@@ -23,7 +23,7 @@ struct ValueType {
     double low = -infinity, high = infinity;  ///< of a number
     std::vector<std::string> choices = {};
     std::vector<ValueType> element = {};  ///< of a list: one
-    std::vector<Member> members = {};     ///< of a record; one without members may have any
+    std::vector<Member> members;          ///< of a record; one without members may have any
     std::string typescript_name = {};     ///< of the type in the page; empty for the plain one
 };
 
