@@ -10,7 +10,7 @@
 namespace forage::model {
 namespace {
 
-// Whether a run of `a` can become one of `b` without being built anew.
+// Whether a run of `a` can become one of `b` without being rebuilt.
 template <class T>
 bool same_structure(const T& a, const T& b) {
     return a == b;

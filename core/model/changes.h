@@ -12,7 +12,7 @@ namespace forage::model {
 
 /// The parameters that differ between two systems, with their values in `after`: all that a run needs to
 /// become one of `after`. Names, notes, places and colours that a run does not know do not count. Values that
-/// are not valid are left out. Empty when something else differs, so that the run must be built anew. The
+/// are not valid are left out. Empty when something else differs, so the run must be rebuilt. The
 /// result refers to `registry`; names of files in it are relative to the file of `after`.
 std::optional<std::vector<Assignment>> parameter_changes(const System& before, const System& after,
                                                          const Registry& registry);

@@ -15,7 +15,7 @@ namespace forage::model {
 enum class Effect {
     none,        ///< only people and other programs see the member
     parameters,  ///< the run takes over the new values
-    rebuild,     ///< the run must be built anew
+    rebuild,     ///< the run must be rebuilt
 };
 
 template <class Struct, class T>

@@ -111,7 +111,7 @@ class Patcher {
         join_gaps(pairs, old.children, wanted.children);
 
         const auto places = counterparts(mine.children, old.children);
-        std::map<std::string, bool> afresh;  // places whose elements are all written anew
+        std::map<std::string, bool> afresh;  // places whose elements are all rewritten
         std::vector<char> stays(mine.children.size(), true);
         std::vector<const SourceElement*> mine_of(wanted.children.size());
         const auto differs = [&](const SourceElement& e) { afresh[place_of(e)] = true; };

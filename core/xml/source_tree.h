@@ -77,7 +77,7 @@ struct Layout {
 };
 Layout layout_of(std::string_view text, const SourceElement& root);
 
-/// An element of `text` laid out anew at the indentation `indentation`. The first line is not indented. With
+/// An element of `text` laid out again at the indentation `indentation`. The first line is not indented. With
 /// an empty newline, everything stands on one line.
 std::string rendered(std::string_view text, const SourceElement& element, std::string_view indentation,
                      const Layout& layout);

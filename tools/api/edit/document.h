@@ -82,11 +82,8 @@ class Document {
     Diagnostics check_item_text(std::string_view id, const std::string& text, const Registry& registry,
                                 Environment* environment = nullptr) const;
 
-    /// The titles of the steps that undo() and redo() would take; null when there is none.
-    const std::string* undo_title() const { return undo_.empty() ? nullptr : &undo_.back().title; }
     std::size_t steps() const { return undo_.size(); }  ///< that can be undone
-    const std::string* redo_title() const { return redo_.empty() ? nullptr : &redo_.back().title; }
-    void undo();  ///< throws InputError when there is nothing to undo
+    void undo();                                        ///< throws InputError when there is nothing to undo
     void redo();
 
     /// Writes the file, and makes `path` its name unless it is empty: links and names of files in the system
