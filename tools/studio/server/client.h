@@ -22,7 +22,7 @@ class Client {
     bool unsubscribe(std::uint32_t stream);
     const Stream& stream(std::uint32_t number) const { return streams_.at(number); }
     bool watches() const { return !streams_.empty(); }
-    /// Subscribes everything anew in a run that replaces the one before; streams that it does not have end.
+    /// Subscribes everything again in a run that replaces the one before; streams that it does not have end.
     void rebind(Run& run, SourcePool& sources);
     /// Ends the streams of the run that went beside.
     void end_reference();

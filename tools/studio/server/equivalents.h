@@ -49,7 +49,7 @@ Equivalent of_world_copy(const EditedFile& file, const std::string& to);
 Equivalent of_move(const std::string& name, double x, double y, double heading, std::uint64_t cycle);
 /// A new trial, likewise; `start` is -1 for the next start pose.
 Equivalent of_trial(const std::string& robot, int start, std::uint64_t cycle);
-/// The system and the world of a run that begins anew; `edited` when the file of the system is not what runs.
+/// The system and the world of a run that restarts; `edited` when the file of the system is not what runs.
 struct Opened {
     std::string system, world;
     std::uint64_t seed;

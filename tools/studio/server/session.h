@@ -119,7 +119,7 @@ class Session {
     void apply(const json& action);
     /// Applies and notes an action, and tells the pages.
     void act(const json& action, const std::optional<json>& undo, json told);
-    /// An action that is not a step of undo: a recording, a file that is saved, or a run that begins anew,
+    /// An action that is not a step of undo: a recording, a file that is saved, or a run that restarts,
     /// with which something may have ended.
     void broadcast_action(const std::string& command, const std::string& title, const Equivalent& forms,
                           const std::vector<std::string>& ended = {});
@@ -142,11 +142,11 @@ class Session {
     /// Makes the run what the document says, as far as that can run, and tells the pages.
     /// `script` does the same as the edit; empty for a text and for undo, which have none.
     void follow_document(const std::string& title, const Equivalent& script = {});
-    /// Builds the run anew; groups and connections that did not change keep their states. Returns false, with
+    /// Rebuilds the run; groups and connections that did not change keep their states. Returns false, with
     /// the run as it was, when the system cannot run.
-    /// At cycle 0 it begins anew, unless it `goes_on` there, too.
-    bool rebuild(bool goes_on = false);
-    /// What ends when the run is built anew: "past", "comparison", "recording".
+    /// At cycle 0 it restarts, unless it `continues` there, too.
+    bool rebuild(bool continues = false);
+    /// What ends when the run is rebuilt: "past", "comparison", "recording".
     std::vector<std::string> lost_by_rebuild() const;
     /// Changes parameters in the document, too, when its items have them. Returns whether that is a step.
     bool set_in_document(const std::vector<std::string>& assignments, const std::string& title);

@@ -259,7 +259,7 @@ std::vector<std::string> Session::lost_by_rebuild() const {
     return out;
 }
 
-bool Session::rebuild(bool goes_on) {
+bool Session::rebuild(bool continues) {
     RunInput input = edited.wanted ? *edited.wanted : edited.input;
     // What was chosen while the system waited for its corrections.
     if (edited.wanted) input.world = edited.input.world, input.seed = edited.input.seed;
@@ -285,8 +285,8 @@ bool Session::rebuild(bool goes_on) {
     };
     try {
         try {
-            build(live.failed.empty() && (goes_on || live.run->cycle() > 0) && !edited.wanted);
-        } catch (const ArchiveError&) {  // other modules sense the world in another way: it begins anew
+            build(live.failed.empty() && (continues || live.run->cycle() > 0) && !edited.wanted);
+        } catch (const ArchiveError&) {  // other modules sense the world in another way: the run restarts
             diagnostics = edited.document->reading();
             build(false);
         }
@@ -314,7 +314,7 @@ bool Session::rebuild(bool goes_on) {
         settings.group = static_cast<int>(it - groups.begin());
         touches->put(std::move(settings));
     }
-    const bool anew = run->cycle() != live.run->cycle();
+    const bool restarted = run->cycle() != live.run->cycle();
     run->title = live.run->title;
     live.run = std::make_unique<Run>(std::move(*run));
     live.touches = touches;
@@ -326,7 +326,7 @@ bool Session::rebuild(bool goes_on) {
     }
     live.begun = std::move(set);
     live.history.begin(*live.run);
-    if (anew) rewound();  // a run that has failed does not go on
+    if (restarted) rewound();  // a run that has failed does not continue
     pages.rebind(*live.run);
     return true;
 }

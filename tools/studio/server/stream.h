@@ -67,7 +67,7 @@ class Rows {
     void after_cycle(std::uint64_t cycle, std::uint64_t version);
     /// Drops the rows before this one, which is in [begin(), end()].
     void drop_before(std::uint64_t row);
-    /// Drops all rows: the run begins anew or goes back.
+    /// Drops all rows: the run restarts or goes back.
     void clear();
 
   private:
@@ -94,7 +94,7 @@ class Stream {
 
     /// The newest numbers, or the rows since the last call. Valid until the next call.
     const Chunk& take(std::uint64_t version);
-    /// Forgets the rows: the run begins anew or goes back.
+    /// Forgets the rows: the run restarts or goes back.
     void clear();
 
   private:

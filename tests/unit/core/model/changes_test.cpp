@@ -8,7 +8,7 @@
 using namespace forage;
 using namespace forage::model;
 
-TEST_CASE("a run needs only parameters, or is built anew, or does not notice") {
+TEST_CASE("a run needs only parameters, is rebuilt, or stays as it is") {
     Small s;
     const System before = s.system;
     place(s.system, "a", 0, 0), set_note(s.system, "b", "note"), set_line(s.system, "c", {1, 1, {}});

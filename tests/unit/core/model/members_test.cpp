@@ -126,7 +126,7 @@ TEST_CASE("a merge takes every member from either side") {
     });
 }
 
-TEST_CASE("a run is built anew for a member on which its structure depends") {
+TEST_CASE("a run is rebuilt for a member on which its structure depends") {
     Registry registry = test::few_types();
     each_change([&](const System& before, const System& after, const std::string&, Effect effect) {
         const auto changes = parameter_changes(before, after, registry);

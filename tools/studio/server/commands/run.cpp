@@ -68,7 +68,7 @@ json restart_run(Session& s, const Request& r) {
     if (r.has("seed")) input.seed = r.whole("seed");
     const auto ended = s.lost_by_rebuild();
     reset_with(s, input);
-    s.broadcast_action("restart", fmt::format("begin anew with seed {}", input.seed),
+    s.broadcast_action("restart", fmt::format("restart with seed {}", input.seed),
                        begun_again(s, of_restart, input.world), ended);
     return {{"seed", input.seed}};
 }
@@ -110,7 +110,7 @@ json open_world(Session& s, const Request& r) {
     forget_world_steps(s);
     ++s.edited.generation;
     const auto name = std::filesystem::path(input.world).filename().string();
-    s.broadcast_action("world_open", name.empty() ? "begin anew without a world" : "begin anew in " + name,
+    s.broadcast_action("world_open", name.empty() ? "restart without a world" : "restart in " + name,
                        begun_again(s, of_world, input.world), ended);
     s.pages.broadcast(s.world_message()), s.pages.broadcast(s.system_message()), s.broadcast_document();
     return {{"world", input.world}};

@@ -121,13 +121,13 @@ json save_world(Session& s, const Request& r) {
     const auto ended = s.lost_by_rebuild();
     s.edited.input.world = file, s.edited.input.world_text.clear();
     try {
-        s.reset();  // the run begins anew in the world as it is now
+        s.reset();  // the run restarts in the world as it is now
     } catch (...) {
         s.edited.input = before;
         throw;
     }
     const auto name = std::filesystem::path(file).filename().string();
-    s.broadcast_action("world_save", "save " + name + " and begin anew in it", forms, ended);
+    s.broadcast_action("world_save", "save " + name + " and restart in it", forms, ended);
     s.pages.broadcast(s.world_message()), s.pages.broadcast(describe_world_text(s));
     return {{"file", file}};
 }

@@ -906,7 +906,7 @@ TEST_CASE("actions that begin the run anew say what they end, and how to do it w
 
     const std::string arena = FORAGE_SOURCE_DIR "/systems/worlds/open_arena.world";
     told = action({{"command", "world_open"}, {"world", arena}});
-    CHECK(told["title"] == "begin anew in open_arena.world");
+    CHECK(told["title"] == "restart in open_arena.world");
     CHECK(told["shell"] == "--world '" + arena + "'");
     CHECK(told["python"] == open + arena + "\", seed=8)");
 
@@ -924,13 +924,13 @@ TEST_CASE("a system without a robot leaves its world") {
     Editor e("cookbook/winner_take_all.iqr",
              std::vector<std::string>{FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world"});
     e.result({{"command", "world_open"}, {"world", ""}});
-    CHECK(e.last["action"]["title"] == "begin anew without a world");
+    CHECK(e.last["action"]["title"] == "restart without a world");
     CHECK(e.last["action"]["shell"] == "");
     CHECK(e.last["action"]["python"] == "run = forage.open(\"" + e.file + "\", seed=1)");
     CHECK(e.last["world"]["file"].is_null());
 }
 
-TEST_CASE("a world is edited, undone, saved, and the run begins anew in it") {
+TEST_CASE("a world is edited, undone, saved, and the run restarts in it") {
     ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
     Editor e;
     CHECK(e.result({{"command", "world_document"}})["dirty"] == false);

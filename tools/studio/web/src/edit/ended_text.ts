@@ -17,5 +17,5 @@ export function endedText({ ended, cycle, command }: ActionMessage, epoch: numbe
   const all = parts.map((part) => words[part]);
   const list = all.length > 1 ? `${all.slice(0, -1).join(', ')} and ${all[all.length - 1]}` : all[0];
   if (restarted) return `${list![0]!.toUpperCase()}${list!.slice(1)}.`;
-  return `The run ${cycle > 0 ? 'goes on in' : 'begins anew with'} the edited ${command === 'world_edit' ? 'world' : 'system'}: ${list}.`;
+  return `The run ${cycle > 0 ? 'continues in' : 'restarts with'} the edited ${command === 'world_edit' ? 'world' : 'system'}: ${list}.`;
 }

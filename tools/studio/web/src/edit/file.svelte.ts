@@ -102,7 +102,7 @@ class FileDialog {
       if (action === 'save as') await sendAll();
       const done = (await steps[action]()) as { file?: string } | undefined;
       this.action = null;
-      if (action === 'world') actions.notify('info', `The run begins anew in ${baseName(file)}.`);
+      if (action === 'world') actions.notify('info', `The run restarts in ${baseName(file)}.`);
       if (action.startsWith('save')) actions.notify('info', `Saved as ${baseName(done?.file ?? file)}.`);
     } catch (e) {
       this.error = (e as Error).message;
@@ -166,7 +166,7 @@ export async function backup(): Promise<void> {
 }
 
 export async function saveWorld(): Promise<void> {
-  if (await command('world_save')) actions.notify('info', 'The world is saved; the run begins anew in it.');
+  if (await command('world_save')) actions.notify('info', 'The world is saved; the run restarts in it.');
 }
 
 /** What the key saves: the world while its panel is the active one, else the system. */

@@ -23,7 +23,7 @@ export interface Block {
 
 export interface Frame {
   sequence: number;
-  /** Grows when the run begins anew or goes back in time. */
+  /** Grows when the run restarts or goes back in time. */
   epoch: number;
   cycle: number;
   seconds: number;

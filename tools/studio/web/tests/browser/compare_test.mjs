@@ -115,7 +115,7 @@ export default async function ({ start, open, step }) {
   await page.getByRole('navigation').getByRole('button', { name: 'Open Connections' }).or(page.getByRole('navigation').getByRole('button', { name: 'Connections', exact: true })).first().click();
   await page.getByRole('navigation').locator('.row:has(i)').first().click();
   await page.keyboard.press('Delete');
-  await page.getByText('The run goes on in the edited system: it cannot go back to before this edit and the comparison has ended.').waitFor();
+  await page.getByText('The run continues in the edited system: it cannot go back to before this edit and the comparison has ended.').waitFor();
   await page.getByRole('button', { name: 'Compare from here' }).waitFor();
   assert.ok((await seek.getAttribute('min')) === (await seek.inputValue()));
 }

@@ -99,7 +99,7 @@ export default async function ({ folder, start, open, faults, step }) {
   for (let i = 0; i < 3; i++) await page.getByRole('button', { name: 'Step one cycle' }).click();
   await arena.focus();
   await press('Tab', 'Tab', 'Shift+ArrowLeft');
-  await page.getByText('The run goes on in the edited world').waitFor();
+  await page.getByText('The run continues in the edited world').waitFor();
   const cycle = () => page.getByLabel('Moment of the run').inputValue();
   assert.equal(await cycle(), '3');
   await page.getByRole('button', { name: 'Undo' }).click();
@@ -110,7 +110,7 @@ export default async function ({ folder, start, open, faults, step }) {
   await find(page, 'Another world');
   await dialog.getByLabel('A world that comes with Forage').selectOption({ label: 'open arena' });
   await dialog.getByRole('button', { name: 'Open', exact: true }).click();
-  await page.getByText(/begins anew in open_arena/).waitFor();
+  await page.getByText(/restarts in open_arena/).waitFor();
   await until(page, 'its name', () => document.querySelector('header .world')?.textContent.includes('open_arena'));
   await picture(page, 'world');
 

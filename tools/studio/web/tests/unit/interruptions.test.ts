@@ -6,14 +6,14 @@ import type { ActionMessage } from '../../src/protocol/messages';
 const edit = (cycle: number, ...ended: NonNullable<ActionMessage['ended']>): ActionMessage => ({ type: 'action', generation: 1, cycle, command: 'edit', title: 'add a group', ended });
 
 it('an edit says once that the run cannot go back, until the user goes back or stops, and always what else has ended', () => {
-  const back = 'The run goes on in the edited system: it cannot go back to before this edit';
+  const back = 'The run continues in the edited system: it cannot go back to before this edit';
   expect(endedText(edit(0), 1)).toBeNull();
   expect(endedText({ ...edit(5), ended: undefined }, 1)).toBeNull();
   expect(endedText(edit(40, 'past'), 1)).toBe(`${back}.`);
   expect(endedText(edit(50, 'past'), 1)).toBeNull();
-  expect(endedText(edit(60, 'past', 'comparison'), 1)).toBe('The run goes on in the edited system: the comparison has ended.');
+  expect(endedText(edit(60, 'past', 'comparison'), 1)).toBe('The run continues in the edited system: the comparison has ended.');
   expect(endedText(edit(70, 'past', 'comparison', 'recording'), 2)).toBe(`${back}, the comparison has ended and the recording has ended.`);
-  expect(endedText(edit(0, 'past'), 3)).toMatch(/^The run begins anew with the edited system: /);
+  expect(endedText(edit(0, 'past'), 3)).toMatch(/^The run restarts with the edited system: /);
 });
 
 it('an action that begins the run anew says what else has ended, but not the past', () => {
