@@ -21,10 +21,12 @@ export default async function ({ context, start, open, faults, step }) {
   const says_ = async (text) => says.filter({ hasText: text }).waitFor();
 
   step('Tab goes from robot to robot; arrows move, with Shift farther; brackets turn; it is said where the robot is');
-  await until(page, 'the poses', () => window.frames_ > 0 && window.sent.includes('ack'));
-  await view.focus();
-  await page.keyboard.press('Tab');
-  await says_('A_1: ');
+  await eventually('the poses', async () => { // before they are known, Tab leaves the arena
+    await view.blur();
+    await view.focus();
+    await page.keyboard.press('Tab');
+    return (await says.filter({ hasText: 'A_1: ' }).count()) > 0;
+  });
   await page.keyboard.press('Tab');
   await says_('A_2: ');
   await page.keyboard.press('Shift+Tab');

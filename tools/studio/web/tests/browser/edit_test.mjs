@@ -154,6 +154,7 @@ export default async function ({ folder, context, start, open, faults, step }) {
   await page.getByText('Copied 2 items.').waitFor();
   await page.keyboard.press('Control+v');
   await count(8);
+  await until(page, 'the copies are selected', () => document.querySelectorAll('.svelte-flow__node.selected:not([data-id="selection.explore"], [data-id="selection.approach_inhibition"])').length === 2);
   await page.getByRole('navigation').getByText('11', { exact: true }).waitFor(); // connections
   await page.keyboard.press('Delete');
   await count(6);
