@@ -23,10 +23,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_bytes = 64u << 20;  ///< of texts that can be undone
-
-constexpr std::size_t most_kept = 2u << 20;  ///< of these, in a checkpoint
-
 /// The name by which messages call a text without a file.
 std::string shown(const std::string& path) { return path.empty() ? "untitled.iqr" : path; }
 
@@ -113,19 +109,7 @@ std::vector<Document::Problem> Document::located(const Diagnostics& diagnostics)
     return out;
 }
 
-void Document::push(std::string before, const std::string& title, const std::string& merge) {
-    undo_.push_back({std::move(before), title, merge});
-    redo_.clear();
-    std::size_t bytes = 0;
-    for (const Step& s : undo_) bytes += s.text.size();
-    for (; bytes > most_bytes && undo_.size() > 1; undo_.pop_front()) bytes -= undo_.front().text.size();
-}
-
-bool Document::joins(const std::string& merge) const {
-    return !merge.empty() && !undo_.empty() && undo_.back().merge == merge && redo_.empty();
-}
-
-bool Document::edit(const Edit& change, const std::string& title, const std::string& merge) {
+bool Document::edit(const Edit& change) {
     if (!readable_)
         throw InputError("the text of the system has mistakes that hide its meaning",
                          "correct them in the XML of the system first");
@@ -134,30 +118,21 @@ bool Document::edit(const Edit& change, const std::string& title, const std::str
     auto patch = xml::patch(shown(path_), text_, system_, wanted, lenient_);
     if (!patch.system) throw InputError(std::move(patch.diagnostics));
     if (patch.text == text_) return false;
-    const bool joined = joins(merge);
-    if (!joined) push(std::move(text_), title, merge);
     text_ = std::move(patch.text);
     system_ = *std::move(patch.system);
     diagnostics_ = std::move(patch.diagnostics);
-    return !joined;
+    return true;
 }
 
-bool Document::replace(std::string text, Accept accept, const std::string& title, const std::string& merge) {
+bool Document::replace(std::string text, Accept accept) {
     if (text == text_) return false;
-    std::string before = text_;
     read(std::move(text), accept);
-    const bool joined = joins(merge);
-    if (!joined) push(std::move(before), title, merge);
-    return !joined;
+    return true;
 }
 
-bool Document::replace_text(std::string text, const std::string& title) {
-    return replace(std::move(text), Accept::system, title, {});
-}
+bool Document::replace_text(std::string text) { return replace(std::move(text), Accept::system); }
 
-bool Document::write_text(std::string text, const std::string& title, const std::string& merge) {
-    return replace(std::move(text), Accept::any, title, merge);
-}
+bool Document::write_text(std::string text) { return replace(std::move(text), Accept::any); }
 
 xml::Span Document::place_of(std::string_view id) const {
     if (id == system_.id) return {0, text_.size()};
@@ -170,9 +145,9 @@ xml::Span Document::place_of(std::string_view id) const {
 
 std::string Document::item_text(std::string_view id) const { return std::string(place_of(id).of(text_)); }
 
-bool Document::replace_item_text(std::string_view id, const std::string& text, const std::string& title) {
+bool Document::replace_item_text(std::string_view id, const std::string& text) {
     const auto place = place_of(id);
-    return replace_text(text_.substr(0, place.begin) + text + text_.substr(place.end), title);
+    return replace_text(text_.substr(0, place.begin) + text + text_.substr(place.end));
 }
 
 Diagnostics Document::check_item_text(std::string_view id, const std::string& text, const Registry& registry,
@@ -212,25 +187,8 @@ Diagnostics Document::check_item_text(std::string_view id, const std::string& te
     return out;
 }
 
-void Document::swap_step(std::deque<Step>& from, std::deque<Step>& to) {
-    Step step = std::move(from.back());
-    from.pop_back();
-    std::string now = text_;
-    read(std::move(step.text), Accept::any);
-    to.push_back({std::move(now), std::move(step.title), {}});
-}
-
-void Document::undo() {
-    if (undo_.empty()) throw InputError("there is nothing to undo");
-    swap_step(undo_, redo_);
-}
-
-void Document::redo() {
-    if (redo_.empty()) throw InputError("there is nothing to redo");
-    swap_step(redo_, undo_);
-}
-
-void Document::save(const std::string& path, const Registry& registry, bool overwrite) {
+void Document::save(const std::string& path, const Registry& registry, bool overwrite,
+                    const std::vector<std::string*>& earlier) {
     const std::string& to = path.empty() ? path_ : path;
     if (to.empty()) throw InputError("the system has no file yet", "choose a name that ends with .iqr");
     std::error_code ignored;
@@ -252,9 +210,8 @@ void Document::save(const std::string& path, const Registry& registry, bool over
     };
     std::string text = same || path_.empty() ? text_ : moved(text_);
     write_file(to, text);  // a failure leaves the document as it was
-    if (text != text_)     // undo leads to texts of the new place, too
-        for (auto* steps : {&undo_, &redo_})
-            for (Step& step : *steps) step.text = moved(step.text);
+    if (text != text_)
+        for (std::string* other : earlier) *other = moved(*other);
     text_ = std::move(text);
     const bool renamed = to != path_;
     path_ = to;
@@ -284,7 +241,7 @@ bool Document::reload(Keep keep) {
     const bool changed = [&] {
         if (keep == Keep::mine) return false;
         if (keep == Keep::theirs) {
-            const bool step = write_text(theirs, "the text of the file");
+            const bool step = write_text(theirs);
             saved_system_ = system_;
             return step;
         }
@@ -303,7 +260,7 @@ bool Document::reload(Keep keep) {
         auto patch = xml::patch(path_, theirs, *there, merged.system, lenient_);
         if (!patch.system) throw InputError(std::move(patch.diagnostics));
         saved_system_ = *there;
-        return replace_text(std::move(patch.text), "merge with the file");
+        return replace_text(std::move(patch.text));
     }();
     saved_ = std::move(theirs);
     stamp_ = now;
@@ -311,20 +268,14 @@ bool Document::reload(Keep keep) {
 }
 
 void Document::checkpoint(Archive& archive) {
-    std::deque<Step> steps;  // the latest
-    std::size_t bytes = 0;
-    if (!archive.loading())
-        for (auto it = undo_.rbegin(); it != undo_.rend() && (bytes += it->text.size()) <= most_kept; ++it)
-            steps.push_front(*it);
     if (!archive.loading() && !path_.empty()) {
         std::string path = fs::absolute(path_).string();
         archive(path);
     } else {
         archive(path_);
     }
-    archive(text_, saved_, lenient_, steps, redo_);
+    archive(text_, saved_, lenient_);
     if (!archive.loading()) return;
-    undo_ = std::move(steps);
     Diagnostics ignored;
     if (auto saved = xml::parse_system(shown(path_), saved_, ignored)) saved_system_ = *std::move(saved);
     std::string text = std::move(text_);

@@ -1,9 +1,7 @@
-// A system file that is edited: its text, the system that it says, and what can be undone.
+// A system file that is edited: its text, and the system that it says.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -64,62 +62,51 @@ class Document {
     /// Names the items of diagnostics about this text.
     std::vector<Problem> located(const Diagnostics& diagnostics) const;
 
-    /// Changes the system, as one step that can be undone. With the same `merge`, which is not empty, a step
-    /// joins the one before it. Returns whether there is a new step: not when it joins, or changes nothing.
-    /// Throws what `edit` throws, and InputError when the text or the result cannot be read; the document
-    /// then stays.
-    bool edit(const Edit& edit, const std::string& title, const std::string& merge = {});
-    /// Replaces the whole text, as one step. Throws InputError when the text has no system.
-    bool replace_text(std::string text, const std::string& title);
-    /// Replaces the whole text by one that may have no system. Steps join as in edit().
-    bool write_text(std::string text, const std::string& title, const std::string& merge = {});
+    /// Changes the system. This and the next three functions return whether the text has changed. Throws what
+    /// `edit` throws, and InputError when the text or the result cannot be read; the document then stays.
+    bool edit(const Edit& edit);
+    /// Replaces the whole text. Throws InputError when the text has no system.
+    bool replace_text(std::string text);
+    /// Replaces the whole text by one that may have no system.
+    bool write_text(std::string text);
     /// The text of the element of an item; of the whole system for its id. Throws InputError.
     std::string item_text(std::string_view id) const;
-    /// Replaces the text of the element of an item, as one step.
-    bool replace_item_text(std::string_view id, const std::string& text, const std::string& title);
+    /// Replaces the text of the element of an item.
+    bool replace_item_text(std::string_view id, const std::string& text);
     /// What would be wrong if the element of an item had this text, apart from what is wrong elsewhere
     /// already. Lines and columns are those of `text`; a mistake elsewhere has no place. Throws InputError.
     Diagnostics check_item_text(std::string_view id, const std::string& text, const Registry& registry,
                                 Environment* environment = nullptr) const;
 
-    std::size_t steps() const { return undo_.size(); }  ///< that can be undone
-    void undo();                                        ///< throws InputError when there is nothing to undo
-    void redo();
-
     /// Writes the file, and makes `path` its name unless it is empty: links and names of files in the system
-    /// then stay valid. Throws InputError when the file has changed outside, or exists under a new name,
-    /// unless `overwrite` is set, and std::runtime_error when it cannot be written.
-    void save(const std::string& path, const Registry& registry, bool overwrite = false);
+    /// then stay valid, also in `earlier` texts of the document. Throws InputError when the file has changed
+    /// outside, or exists under a new name, unless `overwrite` is set, and std::runtime_error when it cannot
+    /// be written.
+    void save(const std::string& path, const Registry& registry, bool overwrite = false,
+              const std::vector<std::string*>& earlier = {});
     /// Whether the file is not what it was when it was read or saved.
     bool changed_outside() const;
 
     enum class Keep { mine, theirs, merge };
     /// Continues after a change outside: with this text, with that of the file, or with the file's text and
-    /// the changes of this document in it. Throws InputError when texts without a system should be merged, or
-    /// when both have changed the same thing.
+    /// the changes of this document in it. Returns whether the text has changed. Throws InputError when texts
+    /// without a system should be merged, or when both have changed the same thing.
     bool reload(Keep keep);
 
     /// The changes since the last save, as `diff -u` prints them.
     std::string difference() const;
 
-    /// Writes or reads everything, for the case that the program is killed; of what can be undone, the latest
-    /// steps. The file is not read again: whether it has changed since is found later.
+    /// Writes or reads everything, for the case that the program is killed. The file is not read again:
+    /// whether it has changed since is found later.
     void checkpoint(Archive& archive);
 
   private:
-    struct Step {
-        std::string text, title, merge;  ///< the text before it, or after it
-        void checkpoint(Archive& archive) { archive(text, title, merge); }
-    };
     enum class Accept { system, any };
     /// Makes `text` the text. Throws InputError when it has no system, unless any text is accepted.
     void read(std::string text, Accept accept = Accept::system);
-    /// Replaces the text by another one, as a step.
-    bool replace(std::string text, Accept accept, const std::string& title, const std::string& merge);
+    /// Makes another text the text. Returns whether it was another one.
+    bool replace(std::string text, Accept accept);
     xml::Span place_of(std::string_view id) const;  ///< of an item's element; throws InputError
-    bool joins(const std::string& merge) const;     ///< whether a step joins the one before it
-    void push(std::string before, const std::string& title, const std::string& merge);
-    void swap_step(std::deque<Step>& from, std::deque<Step>& to);
 
     std::string path_, text_, saved_;
     bool lenient_ = false, readable_ = true;
@@ -132,7 +119,6 @@ class Document {
     mutable Stamp stamp_;  ///< of the file, when it was what `saved_` is
     model::System system_, saved_system_;
     Diagnostics diagnostics_;  ///< of the reader
-    std::deque<Step> undo_, redo_;
 };
 
 }  // namespace forage

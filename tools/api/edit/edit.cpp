@@ -92,14 +92,11 @@ json edit_system(const std::string& path, const json& operations, const std::str
     throw_errors(diagnostics);
     const auto before = document.problems(types);
     json made = json::array();
-    document.edit(
-        [&](model::System& system) {
-            for (std::size_t i = 0; i < operations.size(); ++i)
-                made.push_back(attempt(operations, i, [&](const json& o) {
-                    return editing::carry_out(o, system, types, path);
-                }));
-        },
-        "edit");
+    document.edit([&](model::System& system) {
+        for (std::size_t i = 0; i < operations.size(); ++i)
+            made.push_back(
+                attempt(operations, i, [&](const json& o) { return editing::carry_out(o, system, types, path); }));
+    });
     prepare(save_as);
     document.save(save_as == path ? std::string() : save_as, types, true);
     add_new_problems(before, document.problems(types), warnings);
@@ -113,8 +110,8 @@ std::string edit(SystemFile& file, const std::string& operations) {
     model::System edited = file.model;
     json made = json::array();
     for (std::size_t i = 0; i < all.size(); ++i)
-        made.push_back(attempt(
-            all, i, [&](const json& o) { return editing::carry_out(o, edited, *file.types, file.path); }));
+        made.push_back(
+            attempt(all, i, [&](const json& o) { return editing::carry_out(o, edited, *file.types, file.path); }));
     file.model = std::move(edited);
     return made.dump();
 }

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "core/run/run_spec.h"
@@ -33,8 +32,6 @@ struct EditedSystem {
     double outside_checked_at = -1e9;
     std::optional<WorldText> world_text;  ///< when it is edited
     UndoSteps steps;
-
-    void add_step(UndoStep step) { steps.add(std::move(step), document->steps()); }
 };
 
 }  // namespace forage::studio

@@ -51,6 +51,13 @@ std::string value_in_python(const std::string& text) {
 
 }  // namespace
 
+Equivalent operator+(const Equivalent& first, const Equivalent& second) {
+    const auto both = [](const std::string& a, const std::string& b) {
+        return a.empty() || b.empty() ? a + b : a + '\n' + b;
+    };
+    return {both(first.shell, second.shell), both(first.python, second.python)};
+}
+
 Equivalent of_assignments(const std::vector<std::string>& assignments, std::uint64_t cycle) {
     Equivalent out;
     for (const std::string& a : assignments) {

@@ -14,6 +14,8 @@ namespace forage::studio {
 struct Equivalent {
     std::string shell, python;
 };
+/// One after the other.
+Equivalent operator+(const Equivalent& first, const Equivalent& second);
 
 /// A change of parameters before the cycle with this number.
 Equivalent of_assignments(const std::vector<std::string>& assignments, std::uint64_t cycle);

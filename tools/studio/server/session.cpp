@@ -256,25 +256,35 @@ json Session::execute(int client, const json& command) {
     }
 }
 
-void Session::apply(const json& action) {
-    find_command(action.at("command").get<std::string>()).repeat(*this, action);
+void Session::act(const json& action, LoggedAction logged) {
+    repeat_actions();
+    const auto& command = find_command(action.at("command"));
+    logged.command = command.name;
+    logged.scripts = command.script(*this, action) + logged.scripts;
+    command.repeat(*this, action);
+    ++edited.generation, ++live.version;
+    live.history.act(live.run->cycle(), action, logged.title);
+    log(logged);
 }
 
-void Session::act(const json& action, const std::optional<json>& undo, json told) {
-    repeat_actions();
-    apply(action);
-    ++edited.generation, ++live.version;
+void Session::log(const LoggedAction& action) {
+    json message = {{"type", "action"},
+                    {"generation", edited.generation},
+                    {"cycle", live.run->cycle()},
+                    {"command", action.command},
+                    {"title", action.title},
+                    {"shell", action.scripts.shell},
+                    {"python", action.scripts.python},
+                    {"ended", action.ended}};
+    if (!action.item.empty()) message["item"] = action.item;
+    if (!action.values.is_null()) message["values"] = action.values;
     pages.status_due = true;
-    const std::string title = told.at("title");
-    live.history.act(live.run->cycle(), action, title);
-    if (undo) edited.add_step({*undo, action, title});
-    told["type"] = "action", told["generation"] = edited.generation, told["cycle"] = live.run->cycle();
-    told["command"] = action.at("command"), told["undoable"] = undo.has_value();
-    pages.broadcast(told);
+    pages.broadcast(message);
 }
 
 void Session::repeat_actions() {
-    while (const auto* action = live.history.due(live.run->cycle())) apply(action->command);
+    while (const auto* action = live.history.due(live.run->cycle()))
+        find_command(action->command.at("command")).repeat(*this, action->command);
 }
 
 void Session::cycle() {
@@ -309,20 +319,7 @@ void Session::close_sampler() {
     if (live.sampler->rows > 0) what.until = live.run->cycle() - 1;
     live.sampler.reset();
     pages.status_due = true;
-    broadcast_action("sample_stop", "end of recording", of_sampling_end(what));
-}
-
-void Session::broadcast_action(const std::string& command, const std::string& title, const Equivalent& forms,
-                               const std::vector<std::string>& ended) {
-    pages.broadcast({{"type", "action"},
-                     {"generation", edited.generation},
-                     {"cycle", live.run->cycle()},
-                     {"command", command},
-                     {"title", title},
-                     {"shell", forms.shell},
-                     {"python", forms.python},
-                     {"undoable", false},
-                     {"ended", ended}});
+    log({.command = "sample_stop", .title = "end of recording", .scripts = of_sampling_end(what)});
 }
 
 void Session::go_to(std::uint64_t cycle) {

@@ -35,6 +35,15 @@ struct RecoveryState {
     Settings settings = read_settings();
 };
 
+/// An action as pages log it.
+struct LoggedAction {
+    std::string command = {}, title = {};
+    Equivalent scripts = {};
+    std::vector<std::string> ended = {};  ///< with the run before: "past", "comparison", "recording"
+    std::string item = {};                ///< the group that it acts on
+    json values = nullptr;                ///< of parameters that it sets
+};
+
 /// Executes the commands of pages between cycles, and runs the system. docs/design/studio-protocol.md
 /// describes the messages. All functions are called by one thread.
 class Session {
@@ -115,14 +124,10 @@ class Session {
     void rewound();
     /// Adds the parameters that were set in systems beside the document.
     void set_beside_document(RunInput& input) const;
-    /// Changes the run as an action says, without undo. Throws InputError.
-    void apply(const json& action);
-    /// Applies and notes an action, and tells the pages.
-    void act(const json& action, const std::optional<json>& undo, json told);
-    /// An action that is not a step of undo: a recording, a file that is saved, or a run that restarts,
-    /// with which something may have ended.
-    void broadcast_action(const std::string& command, const std::string& title, const Equivalent& forms,
-                          const std::vector<std::string>& ended = {});
+    /// Changes the run as an action says, notes it in the history, and logs it with its scripts. Throws
+    /// InputError.
+    void act(const json& action, LoggedAction logged);
+    void log(const LoggedAction& action);
     json status() const;
     json trials_status() const;
     json system_message();
@@ -148,8 +153,8 @@ class Session {
     bool rebuild(bool continues = false);
     /// What ends when the run is rebuilt: "past", "comparison", "recording".
     std::vector<std::string> lost_by_rebuild() const;
-    /// Changes parameters in the document, too, when its items have them. Returns whether that is a step.
-    bool set_in_document(const std::vector<std::string>& assignments, const std::string& title);
+    /// Changes parameters in the document, too, when its items have them. Returns whether its text changed.
+    bool set_in_document(const std::vector<std::string>& assignments);
     /// Resolves changes of parameters of the items of a system, and leaves out others.
     std::vector<model::Assignment> assignments_in(const model::System& system,
                                                   const std::vector<std::string>& texts) const;

@@ -167,15 +167,13 @@ std::vector<model::Assignment> Session::assignments_in(const model::System& syst
     return out;
 }
 
-bool Session::set_in_document(const std::vector<std::string>& assignments, const std::string& title) {
+bool Session::set_in_document(const std::vector<std::string>& assignments) {
     const auto changes = assignments_in(edited.document->system(), assignments);
-    const bool step = edited.document->edit(
-        [&](model::System& system) {
-            for (const auto& a : changes) model::set(system, a);
-        },
-        title);
+    const bool changed = edited.document->edit([&](model::System& system) {
+        for (const auto& a : changes) model::set(system, a);
+    });
     note_parameters(assignments);
-    return step;
+    return changed;
 }
 
 void Session::note_parameters(const std::vector<std::string>& assignments) {
@@ -200,7 +198,7 @@ void Session::follow_document(const std::string& title, const Equivalent& script
     const auto changes = model::parameter_changes(edited.built, now, live.run->registry());
     const auto before = edited.generation;
     const bool waited = edited.wanted.has_value();
-    json ended = json::array();
+    std::vector<std::string> ended;
     if (!edited.document->readable()) {
         edited.problems = edited.document->problems(live.run->registry(), live.run->environment());
         edited.current = false;
@@ -217,34 +215,19 @@ void Session::follow_document(const std::string& title, const Equivalent& script
             }
             edited.built = now;
             if (!assignments.empty()) {
-                const auto set = of_assignments(assignments, live.run->cycle());
-                const auto with = [](const std::string& a, const std::string& b) {
-                    return b.empty() ? a : a + '\n' + b;
-                };
-                act({{"command", "set"}, {"assignments", assignments}}, std::nullopt,
-                    {{"title", title},
-                     {"values", values},
-                     {"shell", with(set.shell, script.shell)},
-                     {"python", with(set.python, script.python)}});
+                act({{"command", "set"}, {"assignments", assignments}},
+                    {.title = title, .scripts = script, .values = values});
             }
         }
     } else {
-        const auto lost = lost_by_rebuild();
+        auto lost = lost_by_rebuild();
         edited.current = rebuild();
-        if (edited.current) edited.built = now, ended = lost;
+        if (edited.current) edited.built = now, ended = std::move(lost);
     }
     if (edited.current) edited.input.text = edited.document->text();
     if (edited.generation == before) {
         ++edited.generation, ++live.version;
-        pages.broadcast({{"type", "action"},
-                         {"generation", edited.generation},
-                         {"cycle", live.run->cycle()},
-                         {"command", "edit"},
-                         {"title", title},
-                         {"shell", script.shell},
-                         {"python", script.python},
-                         {"undoable", true},
-                         {"ended", std::move(ended)}});
+        log({.command = "edit", .title = title, .scripts = script, .ended = ended});
     }
     pages.status_due = true;
     pages.broadcast(system_message());

@@ -52,18 +52,6 @@ Changes changes_of(const json& text) {
     return out;
 }
 
-json json_of(const std::vector<UndoStep>& steps) {
-    json out = json::array();
-    for (const auto& step : steps) out.push_back({step.undo, step.redo, step.title, step.document});
-    return out;
-}
-
-std::vector<UndoStep> steps_of(const json& text) {
-    std::vector<UndoStep> out;
-    for (const auto& step : text) out.push_back({step.at(0), step.at(1), step.at(2), step.at(3)});
-    return out;
-}
-
 }  // namespace
 
 void Session::keep() {
@@ -114,21 +102,15 @@ void Session::save() {
             world = {edited.world_text->path, edited.world_text->text, edited.world_text->saved};
         if (live.reference)
             compare = {{"from", live.reference->from}, {"changed", json_of(live.reference->changed)}};
-        std::string rest = json{
-            {"world", world},
-            {"changed", json_of(live.changed)},
-            {"undo", json_of(edited.steps.undo)},
-            {"redo", json_of(edited.steps.redo)},
-            {"panels", pages.panels},
-            {"mode", live.pace.mode()},
-            {"value", live.pace.value()},
-            {"compare",
-             compare}}.dump(-1, ' ', false, json::error_handler_t::replace);
+        std::string rest =
+            json{{"world", world},           {"changed", json_of(live.changed)}, {"panels", pages.panels},
+                 {"mode", live.pace.mode()}, {"value", live.pace.value()},       {"compare", compare}}
+                .dump(-1, ' ', false, json::error_handler_t::replace);
         archive(head);
         archive_input(archive, opened), archive_input(archive, begun);
         bool waits = edited.wanted.has_value();
         RunInput wanted = edited.wanted.value_or(RunInput());
-        archive(rest, *edited.document, edited.current, waits);
+        archive(rest, *edited.document, edited.steps, edited.current, waits);
         if (waits) archive_input(archive, wanted);
         live.history.save(archive, live.run->cycle());
         if (live.reference) live.reference->past.save(archive, live.run->cycle());
@@ -171,7 +153,7 @@ Session::Killed Session::read_killed(std::string_view content) {
     archive_input(archive, out.opened), archive_input(archive, out.begun);
     std::string text;
     bool waits = false;
-    archive(text, out.document, out.current, waits);
+    archive(text, out.document, out.steps, out.current, waits);
     if (waits) archive_input(archive, out.wanted.emplace());
     const json rest = json::parse(text);
     out.past.load(archive);
@@ -182,7 +164,6 @@ Session::Killed Session::read_killed(std::string_view content) {
         out.reference = std::move(made);
     }
     out.changed = changes_of(rest.at("changed"));
-    out.steps = {steps_of(rest.at("undo")), steps_of(rest.at("redo"))};
     if (const auto& world = rest.at("world"); !world.is_null())
         out.world_text = {world.at(0), world.at(1), world.at(2)};
     out.panels = rest.at("panels");
@@ -227,7 +208,6 @@ void Session::recover() {
     if (killed.reference) run_beside(std::move(*killed.reference), killed.cycle);
     live.changed = std::move(killed.changed);
     edited.steps = std::move(killed.steps);
-    edited.steps.trim(edited.document->steps());
     edited.world_text = std::move(killed.world_text);
     note_opening();
     pages.panels = std::move(killed.panels);

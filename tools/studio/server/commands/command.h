@@ -44,6 +44,8 @@ struct Command {
     json (*apply)(Session& session, const Request& request) = nullptr;
     /// Of an action that the history repeats: changes the run as the noted action says.
     void (*repeat)(Session& session, const json& action) = nullptr;
+    /// The action that undoes such an action, before it is applied. Throws InputError for one that is wrong.
+    json (*inverse)(Session& session, const json& action) = nullptr;
     /// How to do such an action without the studio, before it is applied.
     Equivalent (*script)(Session& session, const json& action) = nullptr;
 };
@@ -57,6 +59,7 @@ const Command& find_command(const std::string& name);
 std::vector<Command> run_commands();
 std::vector<Command> looking_commands();
 std::vector<Command> parameter_commands();
+std::vector<Command> undo_commands();
 std::vector<Command> intervening_commands();
 std::vector<Command> sampling_commands();
 std::vector<Command> layout_commands();

@@ -86,7 +86,7 @@ json save_document(Session& s, const Request& r) {
     if (backup_of(to))
         throw InputError(fmt::format("'{}' is a backup and stays as it is", to),
                          "save it under the name of the system, or under another one");
-    document.save(file, s.run().registry(), r.flag("overwrite"));
+    document.save(file, s.run().registry(), r.flag("overwrite"), s.edited.steps.texts_of_system());
     // The file now has a text that does not run.
     if (!s.edited.current && s.edited.input.text.empty()) s.edited.input.text = s.live.begun.text;
     s.edited.input.system = document.path();
@@ -95,8 +95,9 @@ json save_document(Session& s, const Request& r) {
     if (s.edited.current) s.edited.built = document.system();
     note_recent(document.path());
     if (s.recovery.files && document.path() != before) s.keep_anew(), s.recovery.version.reset();
-    s.broadcast_action("save", (to == before ? "save " : "save as ") + fs::path(to).filename().string(),
-                       of_save(s.edited_file(before), to));
+    s.log({.command = "save",
+           .title = (to == before ? "save " : "save as ") + fs::path(to).filename().string(),
+           .scripts = of_save(s.edited_file(before), to)});
     s.pages.broadcast(s.system_message()), s.broadcast_document();
     return {{"file", document.path()}};
 }
@@ -116,12 +117,14 @@ json write_backup(Session& s, const Request&) {
 }
 
 json reload_document(Session& s, const Request& r) {
-    const auto keep = r.text("keep");
-    const bool step = s.edited.document->reload(keep == "mine"     ? Document::Keep::mine
-                                                : keep == "theirs" ? Document::Keep::theirs
-                                                                   : Document::Keep::merge);
+    const auto keep = r.text("keep"), before = s.edited.document->text();
+    const bool changed = s.edited.document->reload(keep == "mine"     ? Document::Keep::mine
+                                                   : keep == "theirs" ? Document::Keep::theirs
+                                                                      : Document::Keep::merge);
     s.edited.outside = false;
-    if (step) return follow_edit(s, keep == "theirs" ? "the text of the file" : "merge with the file");
+    if (changed)
+        return follow_edit(s, {.title = keep == "theirs" ? "the text of the file" : "merge with the file",
+                               .system = before});
     s.broadcast_document();
     return {{"generation", s.edited.generation}};
 }
@@ -145,20 +148,19 @@ json import_process_file(Session& s, const Request& r) {
     const std::string title = "import " + fs::path(path).filename().string();
     if (link) refuse_taken_ids(document.system(), file, path);
     std::string made;
-    document.edit(
-        [&](model::System& system) {
-            made = link ? add_link(system, file, path, document.path())
-                        : model::import_process(system, std::move(file));
-        },
-        title);
+    const std::string before = document.text();
+    document.edit([&](model::System& system) {
+        made = link ? add_link(system, file, path, document.path())
+                    : model::import_process(system, std::move(file));
+    });
     for (const auto& p : document.system().processes)  // it has the id of its file
         if (p.linked() && p.placeholder.front().id == made) {
             made = p.id;
             break;
         }
     const json operations = {{{"do", "import"}, {"file", path}}};
-    json out =
-        follow_edit(s, title, link ? Equivalent() : of_edit(s.edited_file(document.path()), operations));
+    json out = follow_edit(s, {.title = title, .system = before},
+                           link ? Equivalent() : of_edit(s.edited_file(document.path()), operations));
     out["id"] = made;
     return out;
 }

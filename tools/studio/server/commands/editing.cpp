@@ -157,23 +157,6 @@ struct Description {
     }
 };
 
-/// Whether the last step is one of the document alone, so that the next one may join it.
-bool joins_document(const Session& s) {
-    return s.edited.steps.undo.empty() ||
-           (s.edited.steps.undo.back().document && s.edited.steps.undo.back().undo.is_null());
-}
-
-/// Follows a change of the document: a step, or one that joined the step before.
-json follow_change(Session& s, bool step, const std::string& title, const std::string& text_before,
-                   const Equivalent& script = {}) {
-    if (step) return follow_edit(s, title, script);
-    if (s.edited.document->text() != text_before) {
-        s.follow_document(title, script);
-        s.broadcast_document();
-    }
-    return {{"generation", s.edited.generation}};
-}
-
 /// The script of operations that made these ids; empty for parameters, which have that of `set`.
 Equivalent script_edit(const Session& s, json operations, const json& ids) {
     const auto is_parameter = [](const json& o) { return o.value("do", "") == "parameter"; };
@@ -195,13 +178,11 @@ json edit_document(Session& s, const Request& r) {
     }
     json ids = json::array();
     const std::string before = document.text();
-    const bool step = document.edit(
-        [&](model::System& system) {
-            for (const auto& o : operations)
-                ids.push_back(carry_out(o, system, s.run().registry(), document.path()));
-        },
-        title, joins_document(s) ? r.text("merge") : "");
-    json out = follow_change(s, step, title, before, script_edit(s, operations, ids));
+    document.edit([&](model::System& system) {
+        for (const auto& o : operations) ids.push_back(carry_out(o, system, s.run().registry(), document.path()));
+    });
+    json out = follow_edit(s, {.title = title, .merge = r.text("merge"), .system = before},
+                           script_edit(s, operations, ids));
     out["ids"] = std::move(ids);
     return out;
 }
@@ -249,8 +230,8 @@ json replace_item_text(Session& s, const Request& r) {
     const auto item = r.text("item");
     const auto title = "edit the text of " + (item == "system" ? "the system" : item);
     const auto before = s.edited.document->text();
-    const bool step = s.edited.document->replace_item_text(item_id(s, item), r.text("text"), title);
-    return follow_change(s, step, title, before);
+    s.edited.document->replace_item_text(item_id(s, item), r.text("text"));
+    return follow_edit(s, {.title = title, .system = before});
 }
 
 json check_item_text(Session& s, const Request& r) {
@@ -260,10 +241,10 @@ json check_item_text(Session& s, const Request& r) {
 }
 
 json replace_text(Session& s, const Request& r) {
-    const std::string title = "edit the text of the system", before = s.edited.document->text();
-    const bool step =
-        s.edited.document->write_text(r.text("text"), title, joins_document(s) ? r.text("merge") : "");
-    return follow_change(s, step, title, before);
+    const auto before = s.edited.document->text();
+    s.edited.document->write_text(r.text("text"));
+    return follow_edit(s,
+                       {.title = "edit the text of the system", .merge = r.text("merge"), .system = before});
 }
 
 json copy_items(Session& s, const Request& r) {
@@ -278,17 +259,19 @@ json preview_connection(Session& s, const Request& r) {
     model::System system = s.edited.document->system();
     const auto id = r.text("connection");
     for (const char* part : connection_parts)
-        if (r.has(part))
-            carry_out({{"do", part}, {"id", id}, {part, r[part]}}, system, s.run().registry(), "");
+        if (r.has(part)) carry_out({{"do", part}, {"id", id}, {part, r[part]}}, system, s.run().registry(), "");
     return describe_synapses(system, id, s.run().seed(), max_pairs);
 }
 
 }  // namespace
 
-json follow_edit(Session& s, const std::string& title, const Equivalent& script) {
-    s.edited.add_step({nullptr, nullptr, title, true});
-    s.follow_document(title, script);
-    s.broadcast_document();
+json follow_edit(Session& s, UndoStep step, const Equivalent& script) {
+    if (s.edited.document->text() != *step.system) {
+        const auto title = step.title;
+        s.edited.steps.add(std::move(step));
+        s.follow_document(title, script);
+        s.broadcast_document();
+    }
     return {{"generation", s.edited.generation}};
 }
 

@@ -70,7 +70,8 @@ Manipulation::Settings settings_in(Session& s, const json& action) {
 }
 
 /// The action that makes the manipulation of a group what it is now.
-json present_action(Session& s, int group) {
+json present_action(Session& s, const json& action) {
+    const int group = find_group(s, action.at("group").get<std::string>());
     const auto& found = s.live.touches->groups();
     const auto it = found.find(group);
     if (it == found.end()) return {{"command", "revoke"}, {"group", group_at(s, group).path}};
@@ -91,9 +92,7 @@ json manipulate_group(Session& s, const Request& r) {
     const auto settings = settings_in(s, action);  // also checks
     const auto& path = group_at(s, settings.group).path;
     action["group"] = path;
-    s.act(action, present_action(s, settings.group),
-          described_action(s, action, fmt::format("{} {}", name_of(settings.mode), path), path));
-    return {{"generation", s.edited.generation}};
+    return take_step(s, action, {.title = fmt::format("{} {}", name_of(settings.mode), path), .item = path});
 }
 
 DrivenGroup driven_by(Session& s, const json& manipulation) {
@@ -113,13 +112,11 @@ json revoke_manipulation(Session& s, const Request& r) {
     const auto& path = group_at(s, group).path;
     if (!s.live.touches->groups().contains(group))
         throw InputError(fmt::format("'{}' is not manipulated", path));
-    const json action = {{"command", "revoke"}, {"group", path}};
-    s.act(action, present_action(s, group), described_action(s, action, "revoke " + path, path));
-    return {{"generation", s.edited.generation}};
+    return take_step(s, {{"command", "revoke"}, {"group", path}}, {.title = "revoke " + path, .item = path});
 }
 
 Equivalent script_revoke(Session& s, const json& action) {
-    const auto now = present_action(s, find_group(s, action.at("group").get<std::string>()));
+    const auto now = present_action(s, action);
     if (now.at("command") != "manipulate") return {};
     const auto& actions = s.live.history.actions();
     const auto begun = std::find_if(actions.rbegin(), actions.rend(), [&](const auto& a) {
@@ -131,7 +128,7 @@ Equivalent script_revoke(Session& s, const json& action) {
 json list_manipulations(Session& s, const Request&) {
     json out = json::array();
     for (const auto& [group, m] : s.live.touches->groups()) {
-        out.push_back(present_action(s, group));
+        out.push_back(present_action(s, {{"group", group_at(s, group).path}}));
         out.back().erase("command");
     }
     return {{"manipulations", std::move(out)}};
@@ -174,28 +171,23 @@ json move_body(Session& s, const Request& r) {
         throw InputError("command 'move': exactly one of 'robot' and 'object' is needed", "a name");
     const char* const kind = r.has("robot") ? "robot" : "object";
     const auto name = r.text(kind);
-    const auto before = pose_of(world_of(s.run()), name);
     const double x = r.number("x"), y = r.number("y");
-    const double heading = r.has("heading") ? r.number("heading") : before.value_or(Pose2{}).yaw;
-    const auto action_to = [&](const Pose2& pose) -> json {
-        return {{"command", "move"}, {kind, name}, {"x", pose.x}, {"y", pose.y}, {"heading", pose.yaw}};
-    };
-    const json action = action_to({x, y, heading});
-    const auto merge = r.text("merge");
-    const bool joined = s.edited.steps.joins(merge);
-    const auto title = fmt::format("move {} to ({:.2f}, {:.2f})", name, x, y);
-    s.act(action, before && !joined ? std::optional(action_to(*before)) : std::nullopt,
-          described_action(s, action, title));
-    if (joined)
-        s.edited.steps.undo.back().redo = action, s.edited.steps.undo.back().title = title,
-        s.edited.steps.redo.clear();
-    else if (before)
-        s.edited.steps.undo.back().merge = merge;
-    return {{"generation", s.edited.generation}};
+    const double heading =
+        r.has("heading") ? r.number("heading") : pose_of(world_of(s.run()), name).value_or(Pose2{}).yaw;
+    return take_step(s, {{"command", "move"}, {kind, name}, {"x", x}, {"y", y}, {"heading", heading}},
+                     {.title = fmt::format("move {} to ({:.2f}, {:.2f})", name, x, y)},
+                     {.merge = r.text("merge")});
 }
 
 std::string moved_body(const json& action) {
     return action.at(action.contains("robot") ? "robot" : "object").get<std::string>();
+}
+
+json move_back(Session& s, const json& action) {
+    json out = action;
+    if (const auto pose = pose_of(world_of(s.run()), moved_body(action)))
+        out["x"] = pose->x, out["y"] = pose->y, out["heading"] = pose->yaw;
+    return out;
 }
 
 json begin_next_trial(Session& s, const Request& r) {
@@ -203,7 +195,7 @@ json begin_next_trial(Session& s, const Request& r) {
     const auto start = r["start"].get<int>();
     const json action = {{"command", "begin_trial"}, {"robot", robot}, {"start", start}};
     const auto title = start < 0 ? "next trial" : fmt::format("next trial from start {}", start + 1);
-    s.act(action, std::nullopt, described_action(s, action, title));
+    s.act(action, {.title = title});
     return {{"generation", s.edited.generation}};
 }
 
@@ -231,6 +223,7 @@ std::vector<Command> intervening_commands() {
          .changes_run = true,
          .apply = manipulate_group,
          .repeat = [](Session& s, const json& action) { s.live.touches->put(settings_in(s, action)); },
+         .inverse = present_action,
          .script = script_manipulate},
         {.name = "revoke",
          .doc = "Ends the manipulation of a group.",
@@ -242,6 +235,7 @@ std::vector<Command> intervening_commands() {
              [](Session& s, const json& action) {
                  s.live.touches->remove(find_group(s, action.at("group").get<std::string>()));
              },
+         .inverse = present_action,
          .script = script_revoke},
         {.name = "manipulations",
          .doc = "Lists the manipulations that act now.",
@@ -274,6 +268,7 @@ std::vector<Command> intervening_commands() {
                  move(s.run(), moved_body(action), action.at("x"), action.at("y"),
                       action.at("heading").get<double>());
              },
+         .inverse = move_back,
          .script =
              [](Session& s, const json& action) {
                  return of_move(moved_body(action), action.at("x"), action.at("y"), action.at("heading"),

@@ -20,11 +20,6 @@ std::string value_in(const std::string& assignment) {
 
 bool acts_at_start(const model::Assignment& a) { return !a.parameter || a.parameter->at_start; }
 
-/// Whether an assignment switches a module on or off, which the description of the system says.
-bool switches_module(const Assignments& assignments) {
-    return std::ranges::any_of(assignments, [](const auto& a) { return a.find(".enableModule=") != a.npos; });
-}
-
 json set_by_page(Session& s, const Request& r) {
     const auto assignments = r.texts("assignments");
     std::string title = assignments.empty() ? "" : assignments.front();
@@ -50,46 +45,8 @@ Equivalent script_set(Session& s, const json& action) {
     return of_assignments(action.at("assignments").get<Assignments>(), s.run().cycle());
 }
 
-using Steps = std::vector<UndoStep>;
-
-json back_or_forth(Session& s, Steps& from, Steps& to, bool back) {
-    if (from.empty()) throw NothingLeft(back ? "there is nothing to undo" : "there is nothing to redo");
-    UndoStep entry = std::move(from.back());
-    from.pop_back();
-    const json& command = back ? entry.undo : entry.redo;
-    const bool is_world = command.is_object() && command.at("command") == "world_text";
-    const bool is_set = command.is_object() && command.at("command") == "set";
-    const std::string title = (back ? "undo: " : "redo: ") + entry.title;
-    if (entry.document) back ? s.edited.document->undo() : s.edited.document->redo();
-    auto undone = std::move(s.edited.steps.undo), redone = std::move(s.edited.steps.redo);
-    s.edited.steps.undo.clear(), s.edited.steps.redo.clear();
-    const auto restore_steps = [&] {
-        s.edited.steps.undo = std::move(undone), s.edited.steps.redo = std::move(redone);
-    };
-    try {
-        if (command.is_null()) {
-            s.follow_document(title);
-        } else if (is_world) {
-            const bool runs = command.contains("run");
-            const auto ended = s.lost_by_rebuild();
-            if (runs) run_in_world(s, command.at("run"));
-            set_world_text(s, command.at("text"));
-            broadcast_world_edit(s, title, {}, runs, ended);
-        } else {
-            s.act(command, std::nullopt, described_action(s, command, title));
-            if (entry.document) s.note_parameters(command.at("assignments").get<Assignments>());
-        }
-    } catch (...) {  // what it touched is not there any more; the other steps stay
-        restore_steps();
-        if (is_world) from.push_back(entry);
-        throw;
-    }
-    restore_steps();
-    if (entry.document && is_set && switches_module(command["assignments"].get<Assignments>()))
-        s.pages.broadcast(s.system_message());
-    if (entry.document || is_world) s.broadcast_document();
-    to.push_back(std::move(entry));
-    return {{"generation", s.edited.generation}};
+json undo_set(Session& s, const json& action) {
+    return {{"command", "set"}, {"assignments", inverse(s, action.at("assignments").get<Assignments>())}};
 }
 
 }  // namespace
@@ -131,25 +88,23 @@ std::vector<std::string> inverse(Session& s, const std::vector<std::string>& ass
 
 json set_parameters(Session& s, const std::vector<std::string>& assignments, const std::string& title) {
     if (assignments.empty()) throw InputError("there is nothing to set");
-    const json undo = {{"command", "set"}, {"assignments", inverse(s, assignments)}};
-    const json action = {{"command", "set"}, {"assignments", assignments}};
-    json described = described_action(s, action, title);
-    for (const auto& a : assignments) described["values"][name_in(a)] = value_in(a);
-    const bool step = s.set_in_document(assignments, title);
-    s.act(action, undo, described);
-    if (step) {
-        s.edited.steps.undo.back().document = true;
+    inverse(s, assignments);  // checks them
+    LoggedAction logged{.title = title};
+    for (const auto& a : assignments) logged.values[name_in(a)] = value_in(a);
+    UndoStep step;
+    if (const auto before = s.edited.document->text(); s.set_in_document(assignments)) step.system = before;
+    const bool changed = step.system.has_value();
+    json out =
+        take_step(s, {{"command", "set"}, {"assignments", assignments}}, std::move(logged), std::move(step));
+    if (changed) {
         if (switches_module(assignments)) s.pages.broadcast(s.system_message());
         s.broadcast_document();
     }
-    return {{"generation", s.edited.generation}};
+    return out;
 }
 
-json described_action(Session& s, const json& action, const std::string& title, const std::string& item) {
-    const auto forms = find_command(action.at("command").get<std::string>()).script(s, action);
-    json out = {{"title", title}, {"shell", forms.shell}, {"python", forms.python}};
-    if (!item.empty()) out["item"] = item;
-    return out;
+bool switches_module(const std::vector<std::string>& assignments) {
+    return std::ranges::any_of(assignments, [](const auto& a) { return a.find(".enableModule=") != a.npos; });
 }
 
 std::vector<Command> parameter_commands() {
@@ -167,23 +122,8 @@ std::vector<Command> parameter_commands() {
          .changes_run = true,
          .apply = set_by_page,
          .repeat = repeat_set,
+         .inverse = undo_set,
          .script = script_set},
-        {.name = "undo",
-         .doc = "Undoes the last step of any page.",
-         .result = generation,
-         .changes_run = true,
-         .apply =
-             [](Session& s, const Request&) {
-                 return back_or_forth(s, s.edited.steps.undo, s.edited.steps.redo, true);
-             }},
-        {.name = "redo",
-         .doc = "Repeats the step that was undone last.",
-         .result = generation,
-         .changes_run = true,
-         .apply =
-             [](Session& s, const Request&) {
-                 return back_or_forth(s, s.edited.steps.redo, s.edited.steps.undo, false);
-             }},
     };
 }
 

@@ -28,8 +28,9 @@ json run_trials(Session& s, const Request& r) {
     start_run(s, r);
     const auto trials = r.whole("trials");
     s.live.pause_after_trials = s.run().environment()->trials(0).size() + trials;
-    s.broadcast_action("run_trials", fmt::format("run {} trials", trials),
-                       {fmt::format("--trials {}", trials), fmt::format("run.run(trials={})", trials)});
+    s.log({.command = "run_trials",
+           .title = fmt::format("run {} trials", trials),
+           .scripts = {fmt::format("--trials {}", trials), fmt::format("run.run(trials={})", trials)}});
     return json::object();
 }
 
@@ -68,8 +69,10 @@ json restart_run(Session& s, const Request& r) {
     if (r.has("seed")) input.seed = r.whole("seed");
     const auto ended = s.lost_by_rebuild();
     reset_with(s, input);
-    s.broadcast_action("restart", fmt::format("restart with seed {}", input.seed),
-                       begun_again(s, of_restart, input.world), ended);
+    s.log({.command = "restart",
+           .title = fmt::format("restart with seed {}", input.seed),
+           .scripts = begun_again(s, of_restart, input.world),
+           .ended = ended});
     return {{"seed", input.seed}};
 }
 
@@ -92,12 +95,11 @@ json open_system(Session& s, const Request& r) {
     return json::object();
 }
 
-/// Drops the steps on the text of another world.
+/// Drops the steps in another world.
 void forget_world_steps(Session& s) {
     for (auto* steps : {&s.edited.steps.undo, &s.edited.steps.redo})
         std::erase_if(*steps, [](const auto& step) {
-            const auto command = step.redo.is_object() ? step.redo.value("command", "") : "";
-            return command == "world_text" || command == "move";
+            return step.world || (!step.redo.is_null() && step.redo.at("command") == "move");
         });
 }
 
@@ -110,8 +112,10 @@ json open_world(Session& s, const Request& r) {
     forget_world_steps(s);
     ++s.edited.generation;
     const auto name = std::filesystem::path(input.world).filename().string();
-    s.broadcast_action("world_open", name.empty() ? "restart without a world" : "restart in " + name,
-                       begun_again(s, of_world, input.world), ended);
+    s.log({.command = "world_open",
+           .title = name.empty() ? "restart without a world" : "restart in " + name,
+           .scripts = begun_again(s, of_world, input.world),
+           .ended = ended});
     s.pages.broadcast(s.world_message()), s.pages.broadcast(s.system_message()), s.broadcast_document();
     return {{"world", input.world}};
 }

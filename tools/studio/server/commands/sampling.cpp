@@ -76,7 +76,8 @@ void begin_sampling(Session& s, const json& how) {
                              observe::Sampling{every, 0, std::nullopt, false});
     s.live.sampler = std::move(sampler);
     s.pages.status_due = true;
-    s.broadcast_action("sample", "record into " + file, of_sampling(s.live.sampler->what));
+    s.log(
+        {.command = "sample", .title = "record into " + file, .scripts = of_sampling(s.live.sampler->what)});
 }
 
 json begin_sampler(Session& s, const Request& r) {

@@ -30,15 +30,15 @@ void begin_waiting_sampler(Session& session);
 /// Checks assignments and returns those that undo them. Throws InputError for all mistakes at once.
 std::vector<std::string> inverse(Session& session, const std::vector<std::string>& assignments);
 json set_parameters(Session& session, const std::vector<std::string>& assignments, const std::string& title);
+/// Whether an assignment switches a module on or off, which the description of the system says.
+bool switches_module(const std::vector<std::string>& assignments);
 json describe_item_parameters(Session& session, const std::string& item);
 
-/// What pages get of an action: its title and its scripts.
-json described_action(Session& session, const json& action, const std::string& title,
-                      const std::string& item = {});
-
-// ---- the document ----
-/// Follows a step of the document. `script` is empty for an edit of the text.
-json follow_edit(Session& session, const std::string& title, const Equivalent& script = {});
+// ---- steps of undo ----
+/// Carries out an action of the run as a step. `step` holds what else it has changed, and its `merge`.
+json take_step(Session& session, const json& action, LoggedAction logged, UndoStep step = {});
+/// Follows a step of the document, which holds the text before. `script` is empty for an edit of the text.
+json follow_edit(Session& session, UndoStep step, const Equivalent& script = {});
 
 // ---- the text of the world ----
 WorldText& world_text(Session& session);
@@ -47,8 +47,8 @@ void set_world_text(Session& session, const std::string& text);
 /// Builds the run again in a world of this text: robots and what they carry stay where they are. Throws
 /// InputError, and leaves the run as it is then.
 void run_in_world(Session& session, const std::string& text);
-/// Broadcasts an edit of the world, with which the run goes on in another world or not.
-void broadcast_world_edit(Session& session, const std::string& title, const Equivalent& forms, bool runs,
-                          const std::vector<std::string>& ended);
+std::string running_world(Session& session);  ///< the text of the world that runs
+/// Logs an edit of the world; the run continues in the edited world, or not.
+void log_world_edit(Session& session, LoggedAction logged, bool runs);
 
 }  // namespace forage::studio

@@ -48,11 +48,6 @@ json flat(json made) {
     return made.is_array() ? made : json::array({std::move(made)});
 }
 
-/// The text of the world that runs.
-std::string running_world(Session& s) {
-    return s.edited.input.world_text.empty() ? world_text(s).saved : s.edited.input.world_text;
-}
-
 json edit_world(Session& s, const Request& r) {
     const auto& operations = r["operations"];
     if (operations.empty()) throw InputError("there is no operation");
@@ -66,34 +61,27 @@ json edit_world(Session& s, const Request& r) {
     const auto title = r.has("title")
                            ? r.text("title")
                            : fmt::format("{} in the world", operations.front().value("do", "edit"));
-    const auto merge = r.text("merge");
     const bool runs = r.flag("run");
     const auto ended = s.lost_by_rebuild();
-    json redo = {{"command", "world_text"}, {"text", text}, {"merge", merge}};
-    json undo = {{"command", "world_text"}, {"text", before}};
+    UndoStep step{.title = title, .merge = r.text("merge"), .world = WorldTexts{before, {}}};
     if (runs) {
         // What else was edited on the map gets into the run when the world is saved.
         std::string running = running_world(s);
-        undo["run"] = running;
+        step.world->running = running;
         for (const auto& o : operations) {
             if (o.at("do") != "move")
                 throw InputError("only what is moved gets into the run at once", "save the world");
             editing::carry_out_in_world(o, running, models);
         }
         run_in_world(s, running);
-        redo["run"] = running;
     }
-    const bool joins = !merge.empty() && !s.edited.steps.undo.empty() &&
-                       s.edited.steps.undo.back().redo.is_object() &&
-                       s.edited.steps.undo.back().redo.value("command", "") == "world_text" &&
-                       s.edited.steps.undo.back().redo.value("merge", "") == merge;
-    if (joins)
-        s.edited.steps.undo.back().redo = redo, s.edited.steps.undo.back().title = title;
-    else
-        s.edited.add_step({undo, redo, title, false});
-    s.edited.steps.redo.clear();
+    s.edited.steps.add(std::move(step));
     set_world_text(s, text);
-    broadcast_world_edit(s, title, of_world_edit(s.edited_file(world_text(s).path), operations), runs, ended);
+    log_world_edit(s,
+                   {.title = title,
+                    .scripts = of_world_edit(s.edited_file(world_text(s).path), operations),
+                    .ended = ended},
+                   runs);
     return {{"ids", std::move(ids)}, {"generation", s.edited.generation}};
 }
 
@@ -113,7 +101,7 @@ json save_world(Session& s, const Request& r) {
     auto forms = begun_again(s, of_world, file);
     if (file != world.path) {
         const auto copy = of_world_copy(s.edited_file(world.path), file);
-        forms = {copy.shell + '\n' + forms.shell, copy.python + '\n' + forms.python};
+        forms = copy + forms;
     }
     write_file(file, world.text);
     world.saved = world.text, world.path = file;
@@ -127,7 +115,10 @@ json save_world(Session& s, const Request& r) {
         throw;
     }
     const auto name = std::filesystem::path(file).filename().string();
-    s.broadcast_action("world_save", "save " + name + " and restart in it", forms, ended);
+    s.log({.command = "world_save",
+           .title = "save " + name + " and restart in it",
+           .scripts = forms,
+           .ended = ended});
     s.pages.broadcast(s.world_message()), s.pages.broadcast(describe_world_text(s));
     return {{"file", file}};
 }
@@ -148,6 +139,10 @@ WorldText& world_text(Session& s) {
         s.edited.world_text->saved = s.edited.world_text->text;
     }
     return *s.edited.world_text;
+}
+
+std::string running_world(Session& s) {
+    return s.edited.input.world_text.empty() ? world_text(s).saved : s.edited.input.world_text;
 }
 
 json describe_world_text(Session& s) {
@@ -183,19 +178,13 @@ void run_in_world(Session& s, const std::string& text) {
     throw InputError("the system cannot run in this world", "the run keeps its world");
 }
 
-void broadcast_world_edit(Session& s, const std::string& title, const Equivalent& forms, bool runs,
-                          const std::vector<std::string>& ended) {
-    if (runs) ++s.live.version;
-    s.pages.status_due = true;
-    s.pages.broadcast({{"type", "action"},
-                       {"generation", s.edited.generation},
-                       {"cycle", s.run().cycle()},
-                       {"command", "world_edit"},
-                       {"title", title},
-                       {"shell", forms.shell},
-                       {"python", forms.python},
-                       {"undoable", true},
-                       {"ended", runs ? ended : std::vector<std::string>()}});
+void log_world_edit(Session& s, LoggedAction logged, bool runs) {
+    logged.command = "world_edit";
+    if (runs)
+        ++s.live.version;
+    else
+        logged.ended.clear();
+    s.log(logged);
     if (runs) s.pages.broadcast(s.world_message());
 }
 

@@ -1101,23 +1101,6 @@ TEST_CASE("a comparison that cannot begin leaves the run as it is") {
     CHECK(e.result({{"command", "read"}, {"source", "P/G"}})["values"][0].get<double>() > 0);
 }
 
-TEST_CASE("what can be undone of a world is bounded in bytes") {
-    ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
-    Editor e;
-    const auto file = e.folder / "large.world";
-    const auto text = read_file(FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world");
-    const std::size_t padding = 1u << 20;  // two texts of a megabyte per step
-    std::ofstream(file) << text << "<!--" << std::string(padding, '.') << "-->";
-    e.result({{"command", "open"}, {"system", e.file}, {"world", file.string()}});
-    for (int i = 0; i < 8; ++i)
-        e.result({{"command", "world_edit"},
-                  {"operations", {{{"do", "move"}, {"id", "Bug"}, {"x", 0.1 * i}, {"y", 0}}}}});
-    int undone = 0;
-    while (e.ask({{"command", "undo"}})["ok"] == true) ++undone;
-    CHECK(undone >= 3);
-    CHECK(undone < 8);
-}
-
 TEST_CASE("edits of a world that were not saved survive the death of the program") {
     ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
     Editor e;

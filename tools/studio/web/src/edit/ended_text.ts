@@ -11,7 +11,7 @@ const restarts = ['restart', 'world_open', 'world_save'];
 /** Returns null when nothing has ended, or when the end of the past was reported in this epoch already. */
 export function endedText({ ended, cycle, command }: ActionMessage, epoch: number | undefined): string | null {
   const restarted = restarts.includes(command);
-  const parts = ended?.filter((part) => part !== 'past' || (reportedEpoch !== epoch && !restarted)) ?? [];
+  const parts = ended.filter((part) => part !== 'past' || (reportedEpoch !== epoch && !restarted));
   if (parts.includes('past')) reportedEpoch = epoch;
   if (parts.length === 0) return null;
   const all = parts.map((part) => words[part]);

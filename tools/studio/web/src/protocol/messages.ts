@@ -166,11 +166,10 @@ export interface ActionMessage {
   title: string;
   item?: string;
   values?: Record<string, ParameterValue>;
-  shell?: string;
-  python?: string;
-  undoable?: boolean;
+  shell: string;
+  python: string;
   /** What has ended, as the run was built anew or has begun anew. */
-  ended?: ('past' | 'comparison' | 'recording')[];
+  ended: ('past' | 'comparison' | 'recording')[];
 }
 
 export interface Problem { severity?: string; file?: string; line?: number; column?: number; message: string; hint?: string }

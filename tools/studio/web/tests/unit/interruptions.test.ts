@@ -3,12 +3,11 @@ import { endedText } from '../../src/edit/ended_text';
 import { recoverCommand } from '../../src/recover';
 import type { ActionMessage } from '../../src/protocol/messages';
 
-const edit = (cycle: number, ...ended: NonNullable<ActionMessage['ended']>): ActionMessage => ({ type: 'action', generation: 1, cycle, command: 'edit', title: 'add a group', ended });
+const edit = (cycle: number, ...ended: ActionMessage['ended']): ActionMessage => ({ type: 'action', generation: 1, cycle, command: 'edit', title: 'add a group', shell: '', python: '', ended });
 
 it('an edit says once that the run cannot go back, until the user goes back or stops, and always what else has ended', () => {
   const back = 'The run continues in the edited system: it cannot go back to before this edit';
   expect(endedText(edit(0), 1)).toBeNull();
-  expect(endedText({ ...edit(5), ended: undefined }, 1)).toBeNull();
   expect(endedText(edit(40, 'past'), 1)).toBe(`${back}.`);
   expect(endedText(edit(50, 'past'), 1)).toBeNull();
   expect(endedText(edit(60, 'past', 'comparison'), 1)).toBe('The run continues in the edited system: the comparison has ended.');
