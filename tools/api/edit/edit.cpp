@@ -95,7 +95,7 @@ json edit_system(const std::string& path, const json& operations, const std::str
     document.edit([&](model::System& system) {
         for (std::size_t i = 0; i < operations.size(); ++i)
             made.push_back(
-                attempt(operations, i, [&](const json& o) { return editing::carry_out(o, system, types, path); }));
+                attempt(operations, i, [&](const json& o) { return editing::carry_out(o, system, types); }));
     });
     prepare(save_as);
     document.save(save_as == path ? std::string() : save_as, types, true);
@@ -111,7 +111,7 @@ std::string edit(SystemFile& file, const std::string& operations) {
     json made = json::array();
     for (std::size_t i = 0; i < all.size(); ++i)
         made.push_back(
-            attempt(all, i, [&](const json& o) { return editing::carry_out(o, edited, *file.types, file.path); }));
+            attempt(all, i, [&](const json& o) { return editing::carry_out(o, edited, *file.types); }));
     file.model = std::move(edited);
     return made.dump();
 }

@@ -16,23 +16,22 @@
 #include "tools/api/edit/forms.h"
 
 namespace forage::editing {
-namespace {
 
 using namespace model;
 using Strings = std::map<std::string, std::string>;
 
-/// An operation with what it works on.
-struct Operation {
-    const json& o;
+namespace {
+
+constexpr const char* kinds[] = {"excitatory", "inhibitory", "modulatory"};  ///< as InputKind
+
+}  // namespace
+
+struct SystemEdit {
     System& system;
     const Registry& registry;
-    const std::string& path;
+    json o = {};  ///< the operation
 
     std::string text(const char* member) const { return o.at(member).get<std::string>(); }
-    std::string text(const char* member, const char* otherwise) const {
-        const auto it = o.find(member);
-        return it == o.end() || it->is_null() ? otherwise : it->get<std::string>();
-    }
     std::string id() const {
         const auto given = text("id");
         return given == "system" ? system.id : given;
@@ -42,29 +41,22 @@ struct Operation {
         return it == o.end() || it->is_null() ? nullptr : &*it;
     }
 
-    InputKind kind(const std::string& name) const {
-        const Strings known{{"excitatory", ""}, {"inhibitory", ""}, {"modulatory", ""}};
-        if (!known.contains(name))
+    static InputKind kind(const std::string& name) {
+        const auto it = std::ranges::find(kinds, name);
+        if (it == std::end(kinds))
             throw InputError(fmt::format("'{}' is not a kind of connection", name),
                              "excitatory, inhibitory or modulatory");
-        return name == "excitatory"   ? InputKind::excitatory
-               : name == "inhibitory" ? InputKind::inhibitory
-                                      : InputKind::modulatory;
+        return static_cast<InputKind>(it - std::begin(kinds));
     }
 
     json add_process() {
-        const auto made = model::add_process(system, text("name"), text("id", ""));
+        const auto made = model::add_process(system, text("name"), text("id"));
         if (member("x")) model::place(system, made, whole_from(o["x"]), whole_from(o["y"]));
         return made;
     }
-    int side(const char* name) const {
-        const auto* given = member(name);
-        return given ? whole_from(*given, model::most_cells) : 1;
-    }
     json add_group() {
-        const auto made =
-            model::add_group(system, text("process"), text("name"), side("width"), side("height"),
-                             text("neuron", "neuronLinearThreshold"), text("id", ""));
+        const auto made = model::add_group(system, text("process"), text("name"), o.at("width"),
+                                           o.at("height"), text("neuron"), text("id"));
         if (member("x")) model::place(system, made, whole_from(o["x"]), whole_from(o["y"]));
         return made;
     }
@@ -78,10 +70,9 @@ struct Operation {
         return out;
     }
     json add_connection() {
-        const auto made =
-            model::add_connection(system, text("source"), text("target"), kind(text("kind", "excitatory")),
-                                  text("synapse", "synapseFixedWeight"), text("id", ""));
-        if (const auto name = text("name", ""); !name.empty()) model::rename(system, made, name);
+        const auto made = model::add_connection(system, text("source"), text("target"), kind(text("kind")),
+                                                text("synapse"), text("id"));
+        if (const auto name = text("name"); !name.empty()) model::rename(system, made, name);
         model::set_line(system, made, line_change());
         return made;
     }
@@ -97,8 +88,8 @@ struct Operation {
     }
     json add_comment() {
         CanvasComment comment;
-        comment.id = text("id", "");
-        const auto made = add_canvas_comment(system, text("process", ""), std::move(comment));
+        comment.id = text("id");
+        const auto made = add_canvas_comment(system, text("process"), std::move(comment));
         set_comment(system, made, comment_change());
         return made;
     }
@@ -107,7 +98,7 @@ struct Operation {
         place_phantom(system, text("process"), text("group"), whole_from(o.at("x")), whole_from(o.at("y")));
         return nullptr;
     }
-    bool exists(const std::string& each) {
+    bool exists(const std::string& each) const {
         return find_process(system, each) || find_group(system, each) || find_connection(system, each) ||
                find_canvas_comment(system, each);
     }
@@ -122,7 +113,7 @@ struct Operation {
     json rename() { return model::rename(system, id(), text("name")), nullptr; }
     json place() { return model::place(system, id(), whole_from(o.at("x")), whole_from(o.at("y"))), nullptr; }
     json line() { return model::set_line(system, id(), line_change()), nullptr; }
-    json reroute() { return model::reroute(system, id(), text("source", ""), text("target", "")), nullptr; }
+    json reroute() { return model::reroute(system, id(), text("source"), text("target")), nullptr; }
     json set() {
         const auto property = text("property");
         const json& value = o.at("value");
@@ -134,21 +125,14 @@ struct Operation {
             set_kind(system, id(), kind(value.get<std::string>()));
         else if (property == "enabled")
             set_enabled(system, id(), value.get<bool>());
-        else if (property == "feedback")
-            set_feedback(system, id(), value.get<Strings>());
         else
-            throw InputError(fmt::format("there is no property '{}'", property),
-                             "color, note, kind, enabled or feedback");
+            set_feedback(system, id(), value.get<Strings>());
         return nullptr;
     }
     json type() {
-        const auto part = text("part");
         const std::map<std::string, Part> parts{
             {"neuron", Part::neuron}, {"synapse", Part::synapse}, {"module", Part::module}};
-        const auto it = parts.find(part);
-        if (it == parts.end())
-            throw InputError(fmt::format("there is no part '{}'", part), "neuron, synapse or module");
-        return set_type(system, registry, id(), it->second, text("type")), nullptr;
+        return set_type(system, registry, id(), parts.at(text("part")), text("type")), nullptr;
     }
     json parameter() {
         const auto* value = member("value");
@@ -161,11 +145,8 @@ struct Operation {
     json arborization() {
         return set_arborization(system, id(), arborization_from(o.at("arborization"))), nullptr;
     }
-    const json& function(const char* name) const { return o.contains(name) ? o.at(name) : o.at("function"); }
-    json attenuation() {
-        return set_attenuation(system, id(), function_from(function("attenuation"))), nullptr;
-    }
-    json delay() { return set_delay(system, id(), function_from(function("delay"))), nullptr; }
+    json attenuation() { return set_attenuation(system, id(), function_from(o.at("attenuation"))), nullptr; }
+    json delay() { return set_delay(system, id(), function_from(o.at("delay"))), nullptr; }
     json ports() {
         const json none = json::object();
         const auto side = [&](const char* name) {
@@ -177,7 +158,7 @@ struct Operation {
         Diagnostics diagnostics;
         auto content = xml::parse_system("clipboard", text("text"), diagnostics);
         if (!content) throw InputError(std::move(diagnostics));
-        return model::paste(system, *std::move(content), text("process", ""), whole_from(o.at("x")),
+        return model::paste(system, *std::move(content), text("process"), whole_from(o.at("x")),
                             whole_from(o.at("y")));
     }
     json import() {
@@ -202,34 +183,156 @@ struct Operation {
     }
 };
 
-const std::map<std::string, json (Operation::*)()>& operations_by_name() {
-    static const std::map<std::string, json (Operation::*)()> operations = {
-        {"add_process", &Operation::add_process},
-        {"add_group", &Operation::add_group},
-        {"add_connection", &Operation::add_connection},
-        {"add_comment", &Operation::add_comment},
-        {"comment", &Operation::comment},
-        {"phantom", &Operation::phantom},
-        {"remove", &Operation::remove},
-        {"rename", &Operation::rename},
-        {"place", &Operation::place},
-        {"line", &Operation::line},
-        {"reroute", &Operation::reroute},
-        {"set", &Operation::set},
-        {"type", &Operation::type},
-        {"parameter", &Operation::parameter},
-        {"topology", &Operation::topology},
-        {"pattern", &Operation::pattern},
-        {"arborization", &Operation::arborization},
-        {"attenuation", &Operation::attenuation},
-        {"delay", &Operation::delay},
-        {"ports", &Operation::ports},
-        {"paste", &Operation::paste},
-        {"import", &Operation::import},
-        {"system", &Operation::system_properties},
-    };
-    return operations;
+const std::vector<Operation<SystemEdit>>& system_operations() {
+    using namespace schema;
+    static const std::vector<Operation<SystemEdit>> all = [] {
+        const auto place = [](const char* name) { return Member{name, number()}; };
+        const auto placed = [](const char* name) { return optional(name, number()); };
+        const auto size = [](const char* name) { return optional(name, number(1)); };
+        const auto cells = [](const char* name, json otherwise = json(json::value_t::discarded)) {
+            return Member{name, whole(1, model::most_cells), {}, std::move(otherwise)};
+        };
+        const auto with = [](std::vector<Member> first, const std::vector<Member>& more) {
+            first.insert(first.end(), more.begin(), more.end());
+            return first;
+        };
+        const ValueType points = list(list(number()));
+        const ValueType kind = choice({std::begin(kinds), std::end(kinds)});
+        const Member id{"id", text(), "an id, or `system`"};
+        const Member name{"name", text()};
+        const Member made = optional("id", text(), "", "of what is made");
+        const std::vector<Member> line = {
+            optional("source_anchor", whole(0, 15)), optional("target_anchor", whole(0, 15)),
+            optional("vertices", points, nullptr, "`[[x, y], ...]`"), optional("source_vertices", points),
+            optional("target_vertices", points)};
+        const std::vector<Member> comment = {
+            optional("text", text()), placed("x"), placed("y"), size("width"), size("height"),
+            optional("color", text())};
+        return std::vector<Operation<SystemEdit>>{
+            {"add_process",
+             "Adds a process.",
+             {name, placed("x"), placed("y"), made},
+             &SystemEdit::add_process},
+            {"add_group",
+             "Adds a group.",
+             {{"process", text()},
+              name,
+              placed("x"),
+              placed("y"),
+              cells("width", 1),
+              cells("height", 1),
+              optional("neuron", text(), "neuronLinearThreshold"),
+              made},
+             &SystemEdit::add_group},
+            {"add_connection", "Adds a connection.",
+             with({{"source", text()},
+                   {"target", text()},
+                   optional("kind", kind, "excitatory"),
+                   optional("synapse", text(), "synapseFixedWeight"),
+                   optional("name", text(), ""),
+                   made},
+                  line),
+             &SystemEdit::add_connection},
+            {"add_comment", "Adds a comment.",
+             with({optional("process", text(), "", "by default the page of the system"), made}, comment),
+             &SystemEdit::add_comment},
+            {"comment", "Changes a comment. What is absent stays.", with({id}, comment),
+             &SystemEdit::comment},
+            {"phantom",
+             "Sets the place of the phantom of a group on the page of another process.",
+             {{"process", text()}, {"group", text()}, place("x"), place("y")},
+             &SystemEdit::phantom},
+            {"remove",
+             "Removes items. Connections of removed groups go with them, and ports that name them become "
+             "empty.",
+             {{"ids", list(text())}},
+             &SystemEdit::remove},
+            {"rename",
+             "Gives an item another name, with at least one character that is not blank.",
+             {id, name},
+             &SystemEdit::rename},
+            {"place", "Moves an item, or a comment.", {id, place("x"), place("y")}, &SystemEdit::place},
+            {"line",
+             "Changes the line of a connection. What is absent stays. Between processes, `vertices` are on "
+             "the "
+             "page of the system, and the others on the pages of the source's and the target's process.",
+             with({id}, line), &SystemEdit::line},
+            {"reroute",
+             "Gives a connection another source or target. Vertices on a page that the line leaves are "
+             "removed.",
+             {id, optional("source", text(), ""), optional("target", text(), "")},
+             &SystemEdit::reroute},
+            {"set",
+             "Sets a property of an item.",
+             {id, {"property", choice({"color", "note", "kind", "enabled", "feedback"})}, {"value", any()}},
+             &SystemEdit::set},
+            {"type",
+             "Gives an item another type; an empty one removes a module. Parameters that the new type has, "
+             "too, stay.",
+             {id, {"part", choice({"neuron", "synapse", "module"})}, {"type", text()}},
+             &SystemEdit::type},
+            {"parameter",
+             "Sets a parameter in the file.",
+             {id, name, {"value", any(), "null is the default"}},
+             &SystemEdit::parameter},
+            {"topology",
+             "Makes a group a rectangle, or a group of single cells.",
+             {id, optional("width", whole(1, model::most_cells)),
+              optional("height", whole(1, model::most_cells)), optional("wrap_x", boolean(), false),
+              optional("wrap_y", boolean(), false),
+              optional("points", points, nullptr, "`[[x, y], ...]` of single cells")},
+             &SystemEdit::topology},
+            {"pattern",
+             "Sets the pattern of a connection.",
+             {id,
+              {"pattern", any(),
+               R"(`{"form": "mapped", "mapping": "center"}` or `"all"`, `{"form": "foreach"}`, each with )"
+               R"(`source` and `target`; or `{"form": "tuples", "tuples": [{"source": [[x, y]], "target": )"
+               R"([[x, y]]}]}`)"}},
+             &SystemEdit::pattern},
+            {"arborization",
+             "Sets the arborization of a connection.",
+             {id,
+              {"arborization", any(),
+               R"(`{"type": "ArbRect", "values": {"width": 3, "height": 3}}`, with the names of the file; )"
+               "null is the default"}},
+             &SystemEdit::arborization},
+            {"attenuation",
+             "Sets the attenuation of a connection.",
+             {id, {"attenuation", any(), "as an arborization"}},
+             &SystemEdit::attenuation},
+            {"delay",
+             "Sets the delay of a connection.",
+             {id, {"delay", any(), "as an arborization"}},
+             &SystemEdit::delay},
+            {"ports",
+             "Leads ports of the module of a process to groups.",
+             {id, optional("inputs", any(), nullptr, R"(`{"port": "id of a group"}`)"),
+              optional("outputs", any())},
+             &SystemEdit::ports},
+            {"paste",
+             "Adds what the command `copy` has returned.",
+             {{"text", text()},
+              optional("process", text(), "", "for groups and comments"),
+              {"x", number(), "of the upper left corner"},
+              place("y")},
+             &SystemEdit::paste},
+            {"import",
+             "Adds a copy of the process of a file, under new ids.",
+             {{"file", text(), "`.iqrProcess`"}},
+             &SystemEdit::import},
+            {"system",
+             "Changes properties of the system.",
+             {optional("name", text()), optional("author", text()), optional("date", text()),
+              optional("note", text()), optional("port", text()), optional("sync_plots", boolean()),
+              optional("cycles_per_second", number())},
+             &SystemEdit::system_properties},
+        };
+    }();
+    return all;
 }
+
+namespace {
 
 /// Throws InputError for a text with a character that XML cannot hold.
 void check_characters(const std::string& text) {
@@ -248,63 +351,11 @@ void check_characters(const json& value) {
         for (const auto& [name, each] : value.items()) check_characters(name), check_characters(each);
 }
 
-std::string name_of(const System& system, const std::string& id) {
-    for (const auto& p : system.processes) {
-        if (p.id == id) return std::string(trim(p.name));
-        for (const auto& g : p.groups)
-            if (g.id == id) return path(system, p, g);
-    }
-    for (const auto& c : system.connections)
-        if (c.id == id) return std::string(trim(c.name));
-    const auto title = [&](const std::vector<CanvasComment>& comments) {
-        const auto it = std::ranges::find(comments, id, &CanvasComment::id);
-        return it == comments.end() ? std::string() : fmt::format("comment '{}'", first_words(it->text));
-    };
-    for (const auto& p : system.processes)
-        if (auto out = title(p.canvas_comments); !out.empty()) return out;
-    if (auto out = title(system.canvas_comments); !out.empty()) return out;
-    return "the system";
-}
-
 }  // namespace
 
-json carry_out(const json& operation, System& system, const Registry& registry, const std::string& path) {
+json carry_out(const json& operation, System& system, const Registry& registry) {
     check_characters(operation);
-    const auto what = operation.at("do").get<std::string>();
-    const auto it = operations_by_name().find(what);
-    if (it == operations_by_name().end()) {
-        std::vector<std::string> known;
-        for (const auto& [name, function] : operations_by_name()) known.push_back(name);
-        throw InputError(fmt::format("there is no operation '{}'", what), suggest(what, known));
-    }
-    Operation one{operation, system, registry, path};
-    return (one.*it->second)();
-}
-
-std::string title_of(const json& o, const System& system) {
-    const auto what = o.value("do", "");
-    const auto name = name_of(system, o.value("id", ""));
-    if (what.starts_with("add_")) return fmt::format("add {}", o.value("name", what.substr(4)));
-    if (what == "remove") {
-        const auto ids = o.value("ids", std::vector<std::string>());
-        return ids.size() == 1 ? "remove " + name_of(system, ids.front())
-                               : fmt::format("remove {} items", ids.size());
-    }
-    if (what == "parameter") {
-        const json value = o.value("value", json());
-        return fmt::format("{}.{} = {}", name, o.value("name", ""),
-                           value.is_string() ? value.get<std::string>()
-                           : value.is_null() ? "its default"
-                                             : value.dump());
-    }
-    if (what == "place") return "move " + name;
-    if (what == "phantom") return "move the phantom of " + name_of(system, o.value("group", ""));
-    if (what == "comment") return "change " + name;
-    if (what == "rename") return fmt::format("rename {} to {}", name, o.value("name", ""));
-    if (what == "set") return fmt::format("{} of {}", o.value("property", "property"), name);
-    if (what == "paste") return "paste";
-    if (what == "system") return "properties of the system";
-    return fmt::format("{} of {}", what, name);
+    return carry_out(system_operations(), operation, SystemEdit{system, registry});
 }
 
 }  // namespace forage::editing

@@ -1,22 +1,24 @@
-// The operations of an editor, as JSON: docs/design/studio-protocol.md lists them.
+// The operations of an editor on a system, as JSON.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "core/model/system.h"
 #include "core/types/registry.h"
+#include "tools/api/edit/operation.h"
 
 namespace forage::editing {
 
-using nlohmann::json;
+struct SystemEdit;
+const std::vector<Operation<SystemEdit>>& system_operations();
 
-/// Carries out an operation on the system of the file `path`. Returns the id that it made, a list of them, or
-/// null. Throws what the functions of core/model/operations.h throw, InputError, and json::exception for
-/// members that are missing.
-json carry_out(const json& operation, model::System& system, const Registry& registry,
-               const std::string& path);
+/// Carries out an operation on a system. Returns the id that it made, a list of them, or null. Throws what
+/// the functions of core/model/operations.h throw, InputError, and json::exception for a value of another
+/// type.
+json carry_out(const json& operation, model::System& system, const Registry& registry);
 /// What an operation does, in a few words.
 std::string title_of(const json& operation, const model::System& system);
 

@@ -13,11 +13,6 @@
 namespace forage::editing {
 namespace {
 
-std::optional<double> number_in(const json& o, const char* name) {
-    const auto it = o.find(name);
-    return it == o.end() || it->is_null() ? std::nullopt : std::optional(it->get<double>());
-}
-
 /// The value of a property as a text.
 std::string value_of(const json& v) {
     if (v.is_boolean()) return v.get<bool>() ? "1" : "0";
@@ -28,34 +23,81 @@ std::string value_of(const json& v) {
 
 }  // namespace
 
-json carry_out_in_world(const json& o, std::string& text, bug::ModelTexts& models) {
-    const auto what = o.at("do").get<std::string>();
-    if (what == "add") {
-        bug::NewItem item{.kind = o.at("kind"), .name = o.value("name", ""), .x = o.at("x"), .y = o.at("y")};
-        item.yaw = o.value("yaw", item.yaw), item.width = number_in(o, "width");
-        item.depth = number_in(o, "depth"), item.radius = number_in(o, "radius");
-        item.color = o.value("color", item.color), item.uri = o.value("uri", item.uri);
-        std::string id;
-        text = bug::add_to_world(text, std::move(item), models, id);
-        return id;
+struct WorldEdit {
+    std::string& text;
+    bug::ModelTexts& models;
+    json o = {};  ///< the operation
+
+    std::string id() const { return o.at("id"); }
+    std::optional<double> number(const char* name) const {
+        const auto it = o.find(name);
+        return it == o.end() ? std::nullopt : std::optional(it->get<double>());
     }
-    if (what != "move" && what != "set" && what != "unpack" && what != "remove")
-        throw InputError(fmt::format("there is no operation '{}'", what), "add, move, set, unpack or remove");
-    auto id = o.at("id").get<std::string>();
-    if (what == "move") {
-        text = bug::moved_in_world(text, id, o.at("x"), o.at("y"), number_in(o, "yaw"), models);
-    } else if (what == "set") {
-        const auto property = o.at("property").get<std::string>();
-        text = bug::set_in_world(text, id, property, value_of(o.at("value")), models);
-    } else if (what == "unpack") {
-        std::vector<std::string> ids;
-        text = bug::unpacked_in_world(text, id, models, ids);
-        return ids;
-    } else {
-        text = bug::removed_from_world(text, id, models);
+
+    json add() {
+        bug::NewItem item{.kind = o.at("kind"), .name = o.at("name"), .x = o.at("x"), .y = o.at("y")};
+        item.yaw = o.value("yaw", item.yaw), item.width = number("width");
+        item.depth = number("depth"), item.radius = number("radius");
+        item.color = o.value("color", item.color), item.uri = o.value("uri", item.uri);
+        std::string made;
+        text = bug::add_to_world(text, std::move(item), models, made);
+        return made;
+    }
+    json move() {
+        auto moved = id();
+        text = bug::moved_in_world(text, moved, o.at("x"), o.at("y"), number("yaw"), models);
+        return moved;
+    }
+    json set() {
+        auto changed = id();
+        text = bug::set_in_world(text, changed, o.at("property").get<std::string>(), value_of(o.at("value")),
+                                 models);
+        return changed;
+    }
+    json unpack() {
+        std::vector<std::string> made;
+        text = bug::unpacked_in_world(text, id(), models, made);
+        return made;
+    }
+    json remove() {
+        text = bug::removed_from_world(text, id(), models);
         return nullptr;
     }
-    return id;
+};
+
+const std::vector<Operation<WorldEdit>>& world_operations() {
+    using namespace schema;
+    static const std::vector<Operation<WorldEdit>> all = [] {
+        const Member id{"id", text()}, x{"x", number(), "in m"}, y{"y", number()};
+        const Member yaw = optional("yaw", number(), nullptr, "in rad");
+        return std::vector<Operation<WorldEdit>>{
+            {"add",
+             "Adds an item of a kind that `world_types` lists.",
+             {{"kind", text()},
+              x,
+              y,
+              optional("name", text(), ""),
+              yaw,
+              optional("width", number()),
+              optional("depth", number()),
+              optional("radius", number()),
+              optional("color", text()),
+              optional("uri", text())},
+             &WorldEdit::add},
+            {"move", "Moves an item.", {id, x, y, yaw}, &WorldEdit::move},
+            {"set",
+             "Sets a property of an item.",
+             {id, {"property", text()}, {"value", any()}},
+             &WorldEdit::set},
+            {"unpack", "Writes the content of an included model into the world.", {id}, &WorldEdit::unpack},
+            {"remove", "Removes an item.", {id}, &WorldEdit::remove},
+        };
+    }();
+    return all;
+}
+
+json carry_out_in_world(const json& operation, std::string& text, bug::ModelTexts& models) {
+    return carry_out(world_operations(), operation, WorldEdit{text, models});
 }
 
 void check_world(const std::string& path, const std::string& text) {

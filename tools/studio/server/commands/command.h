@@ -6,11 +6,13 @@
 #include <utility>
 #include <vector>
 
+#include "tools/api/edit/schema.h"
 #include "tools/studio/server/equivalents.h"
-#include "tools/studio/server/schema.h"
 #include "tools/studio/server/session.h"
 
 namespace forage::studio {
+
+using namespace schema;  // NOLINT(google-build-using-namespace): the words in which commands are declared
 
 /// The arguments of a command, which have been checked. A member with a default always has a value.
 class Request {

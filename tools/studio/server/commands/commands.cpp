@@ -53,15 +53,8 @@ json execute_command(Session& session, int client, json message) {
     const auto& command = find_command(name->get<std::string>());
     message.erase("command"), message.erase("id");
     take_generation(session, command, message);
-    if (const auto found = mismatch(message, command.arguments))
-        throw InputError(fmt::format("command '{}': '{}' {}", command.name, found->where, found->what),
-                         found->allowed);
-    for (const auto& m : command.arguments) {
-        if (m.required() || m.type.kind == ValueType::Kind::any) continue;
-        if (message.value(m.name, json()).is_null()) message.erase(m.name);
-        if (!m.otherwise.is_null()) message.emplace(m.name, m.otherwise);
-    }
-    return command.apply(session, Request(client, std::move(message)));
+    const std::string what = fmt::format("command '{}'", command.name);
+    return command.apply(session, Request(client, checked(std::move(message), command.arguments, what)));
 }
 
 }  // namespace forage::studio

@@ -179,7 +179,7 @@ json edit_document(Session& s, const Request& r) {
     json ids = json::array();
     const std::string before = document.text();
     document.edit([&](model::System& system) {
-        for (const auto& o : operations) ids.push_back(carry_out(o, system, s.run().registry(), document.path()));
+        for (const auto& o : operations) ids.push_back(carry_out(o, system, s.run().registry()));
     });
     json out = follow_edit(s, {.title = title, .merge = r.text("merge"), .system = before},
                            script_edit(s, operations, ids));
@@ -259,7 +259,7 @@ json preview_connection(Session& s, const Request& r) {
     model::System system = s.edited.document->system();
     const auto id = r.text("connection");
     for (const char* part : connection_parts)
-        if (r.has(part)) carry_out({{"do", part}, {"id", id}, {part, r[part]}}, system, s.run().registry(), "");
+        if (r.has(part)) carry_out({{"do", part}, {"id", id}, {part, r[part]}}, system, s.run().registry());
     return describe_synapses(system, id, s.run().seed(), max_pairs);
 }
 

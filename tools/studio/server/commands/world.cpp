@@ -202,7 +202,7 @@ std::vector<Command> world_commands() {
          .doc = "Carries out [operations on the world](#the-text-of-the-world), all of them or none. Returns "
                 "the ids "
                 "of what is added or changed. Its `action` has `ended`, which is empty without `run`.",
-         .arguments = {{"operations", list(record({}, "Operation"))},
+         .arguments = {{"operations", list(record({}, "WorldOperation"))},
                        optional("title", text()),
                        optional("merge", text(), "", "joins the step before when that has the same name"),
                        optional("run", boolean(), false,

@@ -10,6 +10,8 @@
 #include "core/base/output_files.h"
 #include "tests/support/paths.h"
 #include "tests/support/studio_protocol.h"
+#include "tools/api/edit/operations.h"
+#include "tools/api/edit/world_operations.h"
 
 namespace {
 
@@ -38,12 +40,20 @@ std::string typescript_of(const Command& c) {
     auto arguments = c.arguments;
     if (c.changes_run)
         arguments.push_back(optional("generation", whole(), nullptr, "Another action since is a conflict."));
-    std::string out = fmt::format("  /** {} */\n  {}: {{\n    arguments: ", c.doc, c.name);
-    if (arguments.empty()) out += "{}";
-    for (const auto& m : arguments)
-        out += fmt::format("{}{}{}: {}{}", &m == &arguments.front() ? "{ " : "; ", m.name,
-                           m.required() ? "" : "?", in_typescript(m.type), m.required() ? "" : " | null");
-    return out + (arguments.empty() ? "" : " }") + fmt::format(";\n    result: {};\n  }};\n", c.result);
+    return fmt::format("  /** {} */\n  {}: {{\n    arguments: {};\n    result: {};\n  }};\n", c.doc, c.name,
+                       arguments.empty() ? "{}" : in_typescript(record(arguments)), c.result);
+}
+
+/// The union of the types of operations.
+template <class Edit>
+std::string typescript_of(const std::string& name, const std::vector<editing::Operation<Edit>>& operations) {
+    std::string out = "\nexport type " + name + " =";
+    for (const auto& o : operations) {
+        auto members = o.members;
+        members.insert(members.begin(), {"do", any("'" + o.name + "'")});
+        out += "\n  | " + in_typescript(record(members));
+    }
+    return out + ";\n";
 }
 
 std::string page_module() {
@@ -57,7 +67,8 @@ std::string page_module() {
         for (const char l : types)
             if (std::isalnum(static_cast<unsigned char>(l)))
                 word += l;
-            else if (std::isupper(static_cast<unsigned char>(word[0])) && word != "Record")
+            else if (std::isupper(static_cast<unsigned char>(word[0])) && word != "Record" &&
+                     !word.ends_with("Operation"))
                 names.insert(std::exchange(word, ""));
             else
                 word.clear();
@@ -65,8 +76,9 @@ std::string page_module() {
     return fmt::format(
         "// The commands of the server. Made by tests/unit/tools/studio/server/protocol_test.cpp from "
         "tools/studio/server/commands.\n"
-        "import type {{ {} }} from './messages';\n\n{}}}\n",
-        fmt::join(names, ", "), body);
+        "import type {{ {} }} from './messages';\n\n{}}}\n{}{}",
+        fmt::join(names, ", "), body, typescript_of("Operation", editing::system_operations()),
+        typescript_of("WorldOperation", editing::world_operations()));
 }
 
 // ---- the tables of the docs ----
@@ -86,12 +98,27 @@ std::string documented(const Member& m) {
     return said.empty() ? out : fmt::format("{}: {}", out, fmt::join(said, ", "));
 }
 
+std::string row_of(const std::string& name, const std::vector<Member>& members, const std::string& doc) {
+    std::vector<std::string> out;
+    for (const auto& m : members) out.push_back(documented(m));
+    return fmt::format("| `{}` | {} | {} |\n", name, fmt::join(out, "<br>"), doc);
+}
+
 std::string row_of(const Command& c) {
-    std::vector<std::string> arguments;
-    for (const auto& m : c.arguments) arguments.push_back(documented(m));
     const bool none = c.result == "{}";
-    return fmt::format("| `{}` | {} | {}{} |\n", c.name, fmt::join(arguments, "<br>"), c.doc,
-                       none ? "" : " `" + replaced(c.result, "|", "\\|") + "`");
+    return row_of(c.name, c.arguments, c.doc + (none ? "" : " `" + replaced(c.result, "|", "\\|") + "`"));
+}
+
+/// The docs with the table of operations between the mark and "<!-- end of operations -->".
+template <class Edit>
+std::string with_operations(std::string text, const std::string& mark,
+                            const std::vector<editing::Operation<Edit>>& operations) {
+    std::string table = "\n| `do` | members | what it does |\n|---|---|---|\n";
+    for (const auto& o : operations) table += row_of(o.name, o.members, o.doc);
+    const auto at = text.find(mark);
+    REQUIRE(at != text.npos);
+    const auto begin = text.find('\n', at) + 1, end = text.find("<!-- end of operations -->", begin);
+    return text.replace(begin, end - begin, table + "\n");
 }
 
 /// The docs with the rows after each mark "<!-- commands: run to quit -->".
@@ -112,7 +139,8 @@ std::string documented_page(std::string text) {
         text.replace(begin, text.find(end, begin) - begin, "\n" + table + "\n");
     }
     CHECK(shown == commands().size());
-    return text;
+    text = with_operations(std::move(text), "<!-- operations on a system -->", editing::system_operations());
+    return with_operations(std::move(text), "<!-- operations on a world -->", editing::world_operations());
 }
 
 // ---- the seeds of the fuzzer ----

@@ -38,6 +38,6 @@ export async function layOutPage(): Promise<void> {
   const page = await pageOf(system, process);
   const own = page.boxes.filter((b) => !b.phantom && !b.comment).map((b) => ({ ...b, box: { ...b.box, width: boxSize, height: boxSize } }));
   const places = await layOut(own, page.lines);
-  const lines = page.lines.filter((l) => l.vertices.length > 0).flatMap((l) => l.members.map((c) => ({ do: 'line', id: c.id, [l.list]: [] })));
-  await edit([...[...places].map(([id, p]) => ({ do: 'place', id, x: toFile(p)[0], y: toFile(p)[1] })), ...lines], 'Lay out the page');
+  const lines = page.lines.filter((l) => l.vertices.length > 0).flatMap((l) => l.members.map((c) => ({ do: 'line' as const, id: c.id, [l.list]: [] })));
+  await edit([...[...places].map(([id, p]) => ({ do: 'place' as const, id, x: toFile(p)[0], y: toFile(p)[1] })), ...lines], 'Lay out the page');
 }

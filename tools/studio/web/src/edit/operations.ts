@@ -1,5 +1,6 @@
 // Changes of the document. Each call is one step of undo.
-import type { ConnectionKind, Operation, ParameterInfo, ParameterValue } from '../protocol/messages';
+import type { Operation } from '../protocol/commands';
+import type { ConnectionKind, ParameterInfo, ParameterValue } from '../protocol/messages';
 import { actions } from '../stores/actions.svelte';
 import { command, request } from '../studio';
 import { editing } from './document.svelte';

@@ -4,7 +4,8 @@ import { connect, edit } from '../edit/operations';
 import { removeItems } from '../edit/menus';
 import { apart, freshName } from '../edit/places';
 import { tools } from '../edit/tool.svelte';
-import type { Operation, Process } from '../protocol/messages';
+import type { Operation } from '../protocol/commands';
+import type { Process } from '../protocol/messages';
 import { actions } from '../stores/actions.svelte';
 import { frame } from '../stores/frame.svelte';
 import { model } from '../stores/model.svelte';
@@ -56,7 +57,7 @@ export class PaneEdits {
       const b = this.pane.boxes.get(id);
       if (!b) return [];
       const [x, y] = toFile(b.box);
-      return b.phantom ? [{ do: 'phantom', process: this.pane.process?.id ?? null, group: id, x, y }] : [{ do: 'place', id, x, y }];
+      return b.phantom ? [{ do: 'phantom', process: this.pane.process?.id ?? '', group: id, x, y }] : [{ do: 'place', id, x, y }];
     });
     if (!operations.length) return true;
     return !!(await edit(operations, operations.length > 1 ? `Move ${operations.length} items` : undefined, merge));
@@ -64,7 +65,7 @@ export class PaneEdits {
 
   /** Makes comments wider and higher, by units of the file. */
   grow(dx: number, dy: number, ids: string[]): void {
-    const comments = ids.flatMap((id) => {
+    const comments = ids.flatMap((id): Operation[] => {
       const b = this.pane.boxes.get(id)!;
       return 'text' in b.item ? [{ do: 'comment', id, width: Math.max(10, b.item.icon.width + dx), height: Math.max(10, b.item.icon.height + dy) }] : [];
     });

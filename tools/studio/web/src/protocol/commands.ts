@@ -1,5 +1,5 @@
 // The commands of the server. Made by tests/unit/tools/studio/server/protocol_test.cpp from tools/studio/server/commands.
-import type { DocumentMessage, Driven, EditItem, FilesResult, ItemParameters, LayoutContent, Operation, PanelRow, PreviewResult, Problem, SynapseTable, Trial, TypesResult, Vocabulary, WorldDocument, WorldKind } from './messages';
+import type { DocumentMessage, Driven, EditItem, FilesResult, ItemParameters, LayoutContent, PanelRow, PreviewResult, Problem, SynapseTable, Trial, TypesResult, Vocabulary, WorldDocument, WorldKind } from './messages';
 
 export interface Commands {
   /** Starts the run. */
@@ -349,7 +349,7 @@ export interface Commands {
   };
   /** Carries out [operations on the world](#the-text-of-the-world), all of them or none. Returns the ids of what is added or changed. Its `action` has `ended`, which is empty without `run`. */
   world_edit: {
-    arguments: { operations: Operation[]; title?: string | null; merge?: string | null; run?: boolean | null; generation?: number | null };
+    arguments: { operations: WorldOperation[]; title?: string | null; merge?: string | null; run?: boolean | null; generation?: number | null };
     result: { ids: string[]; generation: number };
   };
   /** Saves the world and begins the run again in it. Rejected when the system cannot run in it, and for a world that comes with Forage. */
@@ -358,3 +358,35 @@ export interface Commands {
     result: { file: string };
   };
 }
+
+export type Operation =
+  | { do: 'add_process'; name: string; x?: number | null; y?: number | null; id?: string | null }
+  | { do: 'add_group'; process: string; name: string; x?: number | null; y?: number | null; width?: number | null; height?: number | null; neuron?: string | null; id?: string | null }
+  | { do: 'add_connection'; source: string; target: string; kind?: 'excitatory' | 'inhibitory' | 'modulatory' | null; synapse?: string | null; name?: string | null; id?: string | null; source_anchor?: number | null; target_anchor?: number | null; vertices?: number[][] | null; source_vertices?: number[][] | null; target_vertices?: number[][] | null }
+  | { do: 'add_comment'; process?: string | null; id?: string | null; text?: string | null; x?: number | null; y?: number | null; width?: number | null; height?: number | null; color?: string | null }
+  | { do: 'comment'; id: string; text?: string | null; x?: number | null; y?: number | null; width?: number | null; height?: number | null; color?: string | null }
+  | { do: 'phantom'; process: string; group: string; x: number; y: number }
+  | { do: 'remove'; ids: string[] }
+  | { do: 'rename'; id: string; name: string }
+  | { do: 'place'; id: string; x: number; y: number }
+  | { do: 'line'; id: string; source_anchor?: number | null; target_anchor?: number | null; vertices?: number[][] | null; source_vertices?: number[][] | null; target_vertices?: number[][] | null }
+  | { do: 'reroute'; id: string; source?: string | null; target?: string | null }
+  | { do: 'set'; id: string; property: 'color' | 'note' | 'kind' | 'enabled' | 'feedback'; value: unknown }
+  | { do: 'type'; id: string; part: 'neuron' | 'synapse' | 'module'; type: string }
+  | { do: 'parameter'; id: string; name: string; value: unknown }
+  | { do: 'topology'; id: string; width?: number | null; height?: number | null; wrap_x?: boolean | null; wrap_y?: boolean | null; points?: number[][] | null }
+  | { do: 'pattern'; id: string; pattern: unknown }
+  | { do: 'arborization'; id: string; arborization: unknown }
+  | { do: 'attenuation'; id: string; attenuation: unknown }
+  | { do: 'delay'; id: string; delay: unknown }
+  | { do: 'ports'; id: string; inputs?: unknown | null; outputs?: unknown | null }
+  | { do: 'paste'; text: string; process?: string | null; x: number; y: number }
+  | { do: 'import'; file: string }
+  | { do: 'system'; name?: string | null; author?: string | null; date?: string | null; note?: string | null; port?: string | null; sync_plots?: boolean | null; cycles_per_second?: number | null };
+
+export type WorldOperation =
+  | { do: 'add'; kind: string; x: number; y: number; name?: string | null; yaw?: number | null; width?: number | null; depth?: number | null; radius?: number | null; color?: string | null; uri?: string | null }
+  | { do: 'move'; id: string; x: number; y: number; yaw?: number | null }
+  | { do: 'set'; id: string; property: string; value: unknown }
+  | { do: 'unpack'; id: string }
+  | { do: 'remove'; id: string };

@@ -298,7 +298,6 @@ export interface BackupFile { file: string; system: string; time: string }
 export interface FilesResult { folder: string; parent?: string | null; folders: string[]; files: string[]; backups: BackupFile[] }
 
 /** One change of the document; `do` says which. */
-export type Operation = { do: string } & Record<string, unknown>;
 
 /** A shape of an item, in its frame: width and depth of a box, or a radius. */
 export interface WorldPart { x: number; y: number; yaw: number; size: number[]; color: string }

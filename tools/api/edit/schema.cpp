@@ -1,4 +1,4 @@
-#include "tools/studio/server/schema.h"
+#include "tools/api/edit/schema.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,9 @@
 #include <fmt/ranges.h>
 
 #include "core/base/diagnostic.h"
+#include "core/run/input_error.h"
 
-namespace forage::studio {
+namespace forage::schema {
 namespace {
 
 using Kind = ValueType::Kind;
@@ -130,6 +131,17 @@ std::optional<Mismatch> mismatch(const json& object, const std::vector<Member>& 
     return std::nullopt;
 }
 
+json checked(json object, const std::vector<Member>& members, const std::string& what) {
+    if (const auto found = mismatch(object, members))
+        throw InputError(fmt::format("{}: '{}' {}", what, found->where, found->what), found->allowed);
+    for (const auto& m : members) {
+        if (m.required() || m.type.kind == Kind::any) continue;
+        if (object.value(m.name, json()).is_null()) object.erase(m.name);
+        if (!m.otherwise.is_null()) object.emplace(m.name, m.otherwise);
+    }
+    return object;
+}
+
 std::string in_words(const ValueType& type) {
     switch (type.kind) {
         case Kind::any:
@@ -182,4 +194,4 @@ std::string in_typescript(const ValueType& type) {
     return fmt::format("{{ {} }}", fmt::join(members, "; "));
 }
 
-}  // namespace forage::studio
+}  // namespace forage::schema

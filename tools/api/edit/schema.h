@@ -1,4 +1,5 @@
-// The types of arguments of commands: one description checks them, and is printed for the page and the docs.
+// The types of the arguments of commands and operations: one description checks them, and is printed for the
+// page and the docs.
 #pragma once
 
 #include <limits>
@@ -8,7 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace forage::studio {
+namespace forage::schema {
 
 using nlohmann::json;
 
@@ -61,8 +62,12 @@ std::optional<Mismatch> mismatch(const json& value, const ValueType& type, const
 std::optional<Mismatch> mismatch(const json& object, const std::vector<Member>& members,
                                  const std::string& where = {});
 
+/// The object with the defaults of absent members, and without nulls that stand for absent ones. Throws
+/// InputError, whose message begins with `what`, when the object does not have these members.
+json checked(json object, const std::vector<Member>& members, const std::string& what);
+
 /// The values of a type in words.
 std::string in_words(const ValueType& type);
 std::string in_typescript(const ValueType& type);
 
-}  // namespace forage::studio
+}  // namespace forage::schema

@@ -1,0 +1,60 @@
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "core/model/lookup.h"
+#include "tools/api/edit/operations.h"
+
+namespace forage::editing {
+namespace {
+
+using namespace model;
+
+std::string name_of(const System& system, const std::string& id) {
+    for (const auto& p : system.processes) {
+        if (p.id == id) return std::string(trim(p.name));
+        for (const auto& g : p.groups)
+            if (g.id == id) return path(system, p, g);
+    }
+    for (const auto& c : system.connections)
+        if (c.id == id) return std::string(trim(c.name));
+    const auto title = [&](const std::vector<CanvasComment>& comments) {
+        const auto it = std::ranges::find(comments, id, &CanvasComment::id);
+        return it == comments.end() ? std::string() : fmt::format("comment '{}'", first_words(it->text));
+    };
+    for (const auto& p : system.processes)
+        if (auto out = title(p.canvas_comments); !out.empty()) return out;
+    if (auto out = title(system.canvas_comments); !out.empty()) return out;
+    return "the system";
+}
+
+}  // namespace
+
+std::string title_of(const json& o, const System& system) {
+    const auto what = o.value("do", "");
+    const auto name = name_of(system, o.value("id", ""));
+    if (what.starts_with("add_")) return fmt::format("add {}", o.value("name", what.substr(4)));
+    if (what == "remove") {
+        const auto ids = o.value("ids", std::vector<std::string>());
+        return ids.size() == 1 ? "remove " + name_of(system, ids.front())
+                               : fmt::format("remove {} items", ids.size());
+    }
+    if (what == "parameter") {
+        const json value = o.value("value", json());
+        return fmt::format("{}.{} = {}", name, o.value("name", ""),
+                           value.is_string() ? value.get<std::string>()
+                           : value.is_null() ? "its default"
+                                             : value.dump());
+    }
+    if (what == "place") return "move " + name;
+    if (what == "phantom") return "move the phantom of " + name_of(system, o.value("group", ""));
+    if (what == "comment") return "change " + name;
+    if (what == "rename") return fmt::format("rename {} to {}", name, o.value("name", ""));
+    if (what == "set") return fmt::format("{} of {}", o.value("property", "property"), name);
+    if (what == "paste") return "paste";
+    if (what == "system") return "properties of the system";
+    return fmt::format("{} of {}", what, name);
+}
+
+}  // namespace forage::editing
