@@ -319,7 +319,7 @@ const std::vector<Operation<SystemEdit>>& system_operations() {
              &SystemEdit::paste},
             {"import",
              "Adds a copy of the process of a file, under new ids.",
-             {{"file", text(), "`.iqrProcess`"}},
+             {{"file", path(), "`.iqrProcess`"}},
              &SystemEdit::import},
             {"system",
              "Changes properties of the system.",

@@ -28,6 +28,10 @@ bool in_range(const json& value, const ValueType& type) {
     return std::isfinite(number) && number >= type.low && number <= type.high;
 }
 
+bool has_control_characters(const std::string& text) {
+    return std::ranges::any_of(text, [](unsigned char c) { return c < ' ' || c == 0x7f; });
+}
+
 /// Whether a value has the kind of a type, apart from what is in it.
 bool fits(const json& value, const ValueType& type) {
     switch (type.kind) {
@@ -41,6 +45,8 @@ bool fits(const json& value, const ValueType& type) {
             return value.is_number() && in_range(value, type);
         case Kind::text:
             return value.is_string();
+        case Kind::path:
+            return value.is_string() && !has_control_characters(value.get<std::string>());
         case Kind::choice:
             return value.is_string() && std::ranges::count(type.choices, value.get<std::string>()) > 0;
         case Kind::list:
@@ -86,6 +92,7 @@ ValueType boolean() { return of_kind(Kind::boolean); }
 ValueType whole(double low, double high) { return in_range(Kind::whole, low, high); }
 ValueType number(double low, double high) { return in_range(Kind::number, low, high); }
 ValueType text() { return of_kind(Kind::text); }
+ValueType path() { return of_kind(Kind::path); }
 ValueType choice(std::vector<std::string> choices) {
     auto out = of_kind(Kind::choice);
     out.choices = std::move(choices);
@@ -154,6 +161,8 @@ std::string in_words(const ValueType& type) {
             return "a number" + range_in_words(type);
         case Kind::text:
             return "a text";
+        case Kind::path:
+            return "a path without control characters";
         case Kind::choice:
             return fmt::format("{} or {}",
                                fmt::join(type.choices.begin(), std::prev(type.choices.end()), ", "),
@@ -178,6 +187,7 @@ std::string in_typescript(const ValueType& type) {
         case Kind::number:
             return "number";
         case Kind::text:
+        case Kind::path:
             return "string";
         case Kind::choice:
             return fmt::format("'{}'", fmt::join(type.choices, "' | '"));

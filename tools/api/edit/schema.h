@@ -17,7 +17,7 @@ struct Member;
 
 /// A type of JSON values.
 struct ValueType {
-    enum class Kind { any, boolean, whole, number, text, choice, list, record };
+    enum class Kind { any, boolean, whole, number, text, path, choice, list, record };
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
     Kind kind = Kind::any;
@@ -43,6 +43,7 @@ ValueType boolean();
 ValueType whole(double low = 0, double high = ValueType::infinity);
 ValueType number(double low = -ValueType::infinity, double high = ValueType::infinity);
 ValueType text();
+ValueType path();  ///< a text without control characters, which would cut or hide a part of a name
 ValueType choice(std::vector<std::string> choices);
 ValueType list(ValueType element);
 ValueType record(std::vector<Member> members, std::string typescript_name = {});

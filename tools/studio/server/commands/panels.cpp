@@ -122,7 +122,7 @@ json write_parameter_file(Session& s, const Request& r) {
 std::vector<Command> panel_commands() {
     const auto rows = list(record({{"item", text()}, {"parameter", text()}}));
     const auto overwrite = optional("overwrite", boolean(), false);
-    const Member panel{"file", text(), "`.hconf`"}, values{"file", text(), "`.pconf`"};
+    const Member panel{"file", path(), "`.hconf`"}, values{"file", path(), "`.pconf`"};
     return {
         {.name = "panel_read",
          .doc = "Reads which parameters a panel of the original shows.",

@@ -122,7 +122,7 @@ std::vector<Command> sampling_commands() {
          .doc = "Records into a file (`.csv`, `.dat`, `.npy`, `.h5`). `append` needs a `.csv` or `.dat` with "
                 "the "
                 "same sources; `sequence` writes `NAME_001.csv`, ...",
-         .arguments = {{"file", text()},
+         .arguments = {{"file", path()},
                        {"sources", list(text())},
                        optional("every", whole(1, 1'000'000), 1),
                        optional("cycles", whole(1, 1'000'000'000'000), nullptr,

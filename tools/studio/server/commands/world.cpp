@@ -214,7 +214,7 @@ std::vector<Command> world_commands() {
          .doc = "Saves the world and begins the run again in it. Rejected when the system cannot run in it, "
                 "and for "
                 "a world that comes with Forage.",
-         .arguments = {optional("file", text(), nullptr, "`.world`; by default the same"),
+         .arguments = {optional("file", path(), nullptr, "`.world`; by default the same"),
                        optional("overwrite", boolean(), false)},
          .result = "{ file: string }",
          .changes_run = true,

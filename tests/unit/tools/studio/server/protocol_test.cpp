@@ -92,7 +92,8 @@ std::string documented(const Member& m) {
     if (m.type.kind == ValueType::Kind::list || m.type.kind == ValueType::Kind::record)
         said.push_back("`" + in_typescript(m.type) + "`");
     else if (m.type.kind != ValueType::Kind::boolean && m.type.kind != ValueType::Kind::any &&
-             (m.type.kind != ValueType::Kind::text || m.doc.empty()))
+             ((m.type.kind != ValueType::Kind::text && m.type.kind != ValueType::Kind::path) ||
+              m.doc.empty()))
         said.push_back(in_words(m.type));
     if (!m.doc.empty()) said.push_back(m.doc);
     return said.empty() ? out : fmt::format("{}: {}", out, fmt::join(said, ", "));
@@ -159,8 +160,9 @@ json seed_value(const Member& m) {
         {"pattern", {{"form", "mapped"}, {"mapping", "all"}}},
         {"source", "Try/Cells"},
         {"sources", {"Try/Cells"}}};
-    const bool is_text = m.type.kind == ValueType::Kind::text || m.type.kind == ValueType::Kind::list ||
-                         m.type.kind == ValueType::Kind::any || m.type.kind == ValueType::Kind::record;
+    const bool is_text = m.type.kind == ValueType::Kind::text || m.type.kind == ValueType::Kind::path ||
+                         m.type.kind == ValueType::Kind::list || m.type.kind == ValueType::Kind::any ||
+                         m.type.kind == ValueType::Kind::record;
     if (const auto it = known.find(m.name); is_text && it != known.end()) return it->second;
     switch (m.type.kind) {
         case ValueType::Kind::boolean:
@@ -173,6 +175,7 @@ json seed_value(const Member& m) {
         case ValueType::Kind::list:
             return json::array();
         case ValueType::Kind::text:
+        case ValueType::Kind::path:
             return "x";
         case ValueType::Kind::any:
         case ValueType::Kind::record:

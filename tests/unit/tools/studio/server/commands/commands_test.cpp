@@ -24,6 +24,7 @@ json sample(const ValueType& type) {
         case ValueType::Kind::number:
             return static_cast<std::int64_t>(std::max(type.low, 0.));
         case ValueType::Kind::text:
+        case ValueType::Kind::path:
             return "x";
         case ValueType::Kind::choice:
             return type.choices.front();
@@ -70,6 +71,9 @@ TEST_CASE("a wrong argument is named, with its value and what is allowed") {
           "command 'set': 'generation' is \"x\" | a whole number of at least 0");
     CHECK(said(R"({"command": "read", "source": "x", "generation": 1})") ==
           "command 'read': 'generation' is not a member | there is 'source'");
+    // The checks of an ending would see another name than the system does.
+    CHECK(said(R"({"command": "open", "system": "/etc/shadow\u0000.iqr"})") ==
+          "command 'open': 'system' is \"/etc/shadow\\u0000.iqr\" | a path without control characters");
     CHECK(said(R"({"command": "stpe"})") == "there is no command 'stpe' | did you mean 'step'?");
 }
 
