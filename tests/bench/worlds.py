@@ -9,7 +9,7 @@ import pathlib
 import sys
 import tempfile
 
-from command_line import ROOT, SHARED, SYSTEMS, result, run
+from command_line import SHARED, SYSTEMS, result, run
 
 TURNS = 3
 TEAM = [SYSTEMS / "team_a.iqr", SYSTEMS / "team_b.iqr", "--world", SYSTEMS / "worlds" / "team_arena.world"]

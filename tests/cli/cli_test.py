@@ -22,7 +22,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "support"))
 import pictures  # noqa: E402
-from waiting import wait_for, wait_for_cycles  # noqa: E402, F401
+from waiting import wait_for  # noqa: E402
 
 FORAGE = str(pathlib.Path(sys.argv[1]).resolve())
 PROJECT = pathlib.Path(sys.argv[2]).resolve()

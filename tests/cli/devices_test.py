@@ -12,7 +12,8 @@ import subprocess
 import sys
 import unittest
 
-from cli_test import FORAGE, PROJECT, Cli, wait_for, wait_for_cycles
+from cli_test import FORAGE, PROJECT, Cli, wait_for
+from waiting import wait_for_cycles
 
 VIDEO = PROJECT / "systems/video"
 DENOISING = VIDEO / "denoising.iqr"

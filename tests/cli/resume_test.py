@@ -17,7 +17,8 @@ import sys
 import time
 import unittest
 
-from cli_test import FORAGE, PROJECT, SMALL_SYSTEM, SYSTEM, WORLD, Cli, wait_for, wait_for_cycles
+from cli_test import FORAGE, PROJECT, SMALL_SYSTEM, SYSTEM, WORLD, Cli, wait_for
+from waiting import wait_for_cycles
 
 DAC = str(PROJECT / "systems/dac_foraging.iqr")
 KILLS = int(os.environ.get("FORAGE_KILLS", "10"))

@@ -1,6 +1,5 @@
 #!/usr/bin/env python3
 """The studio over its sockets: what it refuses, its flow control, and that watching changes nothing."""
-import json
 import os
 import math
 import pathlib

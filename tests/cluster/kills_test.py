@@ -2,9 +2,11 @@
 import sys
 import unittest
 
-from mpi_test import Mpi  # noqa: F401
-from parts_test import Parts  # noqa: F401
-from slurm_test import Slurm  # noqa: F401
+from mpi_test import Mpi
+from parts_test import Parts
+from slurm_test import Slurm
+
+__all__ = ["Mpi", "Parts", "Slurm"]
 
 if __name__ == "__main__":
     kills = ["Parts.test_kills", "Mpi.test_ranks_are_killed", "Slurm.test_tasks_and_a_node_are_killed"]

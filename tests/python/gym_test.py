@@ -245,7 +245,8 @@ def test_the_parallel_contract():
 
     def play(seed):
         out = [env.reset(seed=seed)]
-        spaces = [env.action_space(a).seed(seed) for a in env.possible_agents]
+        for a in env.possible_agents:
+            env.action_space(a).seed(seed)
         while env.agents:
             before = list(env.agents)
             out.append(env.step({a: env.action_space(a).sample() for a in env.agents}))

@@ -116,7 +116,6 @@ def test_a_callback_may_not_run_or_close_its_run(dac):
 
 def test_a_callback_that_refers_to_its_run_does_not_keep_it():
     run = open_dac()
-    witness = weakref.ref(lambda: None)
 
     class Note:
         def __init__(self, run):
@@ -226,7 +225,7 @@ def test_measures_are_those_of_experiments(dac):
         assert error.value.hint.startswith(hint)
 
 
-def test_a_run_whose_cycle_failed_does_not_go_on(tmp_path):
+def test_a_run_whose_cycle_failed_does_not_go_on():
     # A module of the context reads a file when it starts, and fails there.
     with pytest.raises((forage.RunError, forage.InputError)):
         with forage.open(SYSTEMS / "dac_foraging.iqr", settings={"Adaptive.weights": "nowhere.txt"}) as run:

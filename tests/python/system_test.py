@@ -167,7 +167,7 @@ def test_mistakes_are_found_at_once():
     assert system.to_xml() == before
 
 
-def test_all_other_mistakes_are_those_of_check(command, tmp_path):
+def test_all_other_mistakes_are_those_of_check(tmp_path):
     system = forager()
     system["Bug/Light"].size = (31, 1)
     system.connect("Bug/Light", "Bug/Motor", pattern=Pattern.foreach((1, 1, 40, 1)))
