@@ -37,10 +37,6 @@ class InUse {
     std::atomic_flag& flag_;
 };
 
-struct PythonTask {
-    Task task;
-};
-
 struct PythonAgents {
     explicit PythonAgents(Task task) : run(std::move(task)) {}
     AgentRun run;
@@ -73,19 +69,25 @@ std::vector<std::string> port_names(const std::vector<Port>& ports) {
     return out;
 }
 
-PythonTask read_task(
-    const path& world, const std::optional<path>& system,
-    const std::vector<std::tuple<std::string, std::vector<Port>, std::vector<Port>, std::string>>& agents,
-    bool every_robot, const std::string& action, int cycles_per_step, std::uint64_t max_steps,
-    bool end_at_target, std::pair<double, double> speed, std::uint64_t seed, const py::object& settings,
-    const std::vector<path>& plugins, bool noise, std::optional<double> real_time_factor, bool paths) {
+/// What agents do in a world, as AgentRun and AgentPool are given it (forage/gym.py).
+Task read_task(const py::kwargs& given) {
     AgentOptions options;
-    options.input.world = world.string();
-    if (system) options.input.system = system->string();
-    options.input.seed = seed, options.input.noise = noise;
-    options.input.real_time_factor = real_time_factor;
-    for (const auto& setting : assignments(settings)) options.input.settings.push_back({setting});
-    for (const auto& p : plugins) options.input.plugins.push_back(p.string());
+    path world;
+    std::optional<path> system;
+    std::vector<path> plugins;
+    std::vector<std::tuple<std::string, std::vector<Port>, std::vector<Port>, std::string>> agents;
+    std::string action;
+    std::pair<double, double> speed;
+    RunInput& input = options.input;
+    take(given, "world", world), take(given, "system", system), take(given, "plugins", plugins);
+    take(given, "agents", agents), take(given, "every_robot", options.every_robot);
+    take(given, "action", action), take(given, "speed", speed), take(given, "paths", options.paths);
+    take(given, "cycles_per_step", options.cycles_per_step), take(given, "max_steps", options.max_steps);
+    take(given, "end_at_target", options.end_at_target), take(given, "seed", input.seed);
+    take(given, "noise", input.noise), take(given, "real_time_factor", input.real_time_factor);
+    input.world = world.string(), input.plugins = texts_of(plugins);
+    if (system) input.system = system->string();
+    for (const auto& setting : assignments(given["settings"])) input.settings.push_back({setting});
     for (const auto& [robot, sensors, motors, reward] : agents) {
         Agent agent{.robot = robot, .reward = reward};
         if (system)
@@ -94,10 +96,8 @@ PythonTask read_task(
             agent.body = {{}, groups_of(sensors), groups_of(motors), speed.first, speed.second};
         options.agents.push_back(std::move(agent));
     }
-    options.every_robot = every_robot, options.action = action_kind(action);
-    options.cycles_per_step = cycles_per_step, options.max_steps = max_steps;
-    options.end_at_target = end_at_target, options.paths = paths;
-    return {AgentTask::read(std::move(options))};
+    options.action = action_kind(action);
+    return AgentTask::read(std::move(options));
 }
 
 py::array_t<float> observation(const PythonAgents& self, std::size_t agent) {
@@ -206,14 +206,8 @@ py::tuple step_pool(PythonPool& self, const Numbers& actions) {
 }  // namespace
 
 void add_agents(py::module_& module) {
-    py::class_<PythonTask>(module, "AgentTask",
-                           "What agents do in a world, with the content of its files. forage.gym uses it.")
-        .def(py::init(&read_task), py::kw_only(), "world"_a, "system"_a, "agents"_a, "every_robot"_a,
-             "action"_a, "cycles_per_step"_a, "max_steps"_a, "end_at_target"_a, "speed"_a, "seed"_a,
-             "settings"_a, "plugins"_a, "noise"_a, "real_time_factor"_a, "paths"_a);
     py::class_<PythonAgents>(module, "AgentRun", "A run that agents drive. forage.gym uses it.")
-        .def(py::init([](const PythonTask& task) { return std::make_unique<PythonAgents>(task.task); }),
-             "task"_a)
+        .def(py::init([](const py::kwargs& task) { return std::make_unique<PythonAgents>(read_task(task)); }))
         .def("reset", &reset, "seed"_a, "starts"_a)
         .def(
             "act", [](PythonAgents& self, std::size_t i, const py::object& a) { act(self, i, a); }, "agent"_a,
@@ -237,10 +231,10 @@ void add_agents(py::module_& module) {
             return out;
         });
     py::class_<PythonPool>(module, "AgentPool", "Runs that are stepped together. forage.gym uses it.")
-        .def(py::init([](const PythonTask& task, std::size_t runs, int threads) {
-                 return std::make_unique<PythonPool>(task.task, runs, threads);
+        .def(py::init([](std::size_t runs, int threads, const py::kwargs& task) {
+                 return std::make_unique<PythonPool>(read_task(task), runs, threads);
              }),
-             "task"_a, "runs"_a, "threads"_a)
+             "runs"_a, "threads"_a)
         .def("reset", &reset_pool, "seeds"_a)
         .def("step", &step_pool, "actions"_a)
         .def("sensors", [](PythonPool& self) { return ports(self.pool[0].sensors(0)); })

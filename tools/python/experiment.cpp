@@ -6,10 +6,10 @@
 #include <atomic>
 #include <chrono>
 #include <exception>
+#include <variant>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 #include "core/base/cores.h"
 #include "tools/python/tables.h"
@@ -19,7 +19,6 @@ namespace forage::python {
 namespace {
 
 using namespace py::literals;
-using ExperimentPath = std::filesystem::path;
 
 /// Shows the progress of an experiment, and ends it after what Python raises: a signal such as that of
 /// Ctrl-C, or an exception of the function that shows it. Used without the GIL.
@@ -98,19 +97,32 @@ py::list columns_of(const ExperimentOutcome& outcome) {
     return out;
 }
 
-/// Runs an experiment: the path of a file, or one that was described in code.
-template <class What>
-py::list run_all(const What& what, const std::string& directory, const std::vector<std::string>& plugins,
-                 int jobs, bool fresh, py::object progress) {
+/// An experiment: the path of its file, or what code describes.
+struct PythonExperiment {
+    std::variant<std::string, model::Experiment> what;
+    std::vector<std::string> plugins;
+
+    /// For one part, in a process that shares the directory with others.
+    PreparedExperiment prepare(const std::string& directory) const {
+        return *checked([&](Diagnostics& found) {
+            return std::visit([&](const auto& w) { return prepare_part(w, directory, plugins, found); },
+                              what);
+        });
+    }
+};
+
+py::list run_all(const PythonExperiment& self, const std::string& directory, int jobs, bool fresh,
+                 py::object progress) {
     Watch watch(std::move(progress));
+    const ExperimentSettings settings{.directory = directory,
+                                      .plugins = self.plugins,
+                                      .jobs = jobs,
+                                      .fresh = fresh,
+                                      .callbacks = watch.callbacks()};
     ExperimentOutcome outcome;
     {
         const py::gil_scoped_release others;
-        outcome = experiment(what, ExperimentSettings{.directory = directory,
-                                                      .plugins = plugins,
-                                                      .jobs = jobs,
-                                                      .fresh = fresh,
-                                                      .callbacks = watch.callbacks()});
+        outcome = std::visit([&](const auto& what) { return experiment(what, settings); }, self.what);
     }
     watch.rethrow();
     warn(outcome.warnings);
@@ -118,35 +130,22 @@ py::list run_all(const What& what, const std::string& directory, const std::vect
 }
 
 /// Executes one part of an experiment, as `forage experiment --shard` does, in a worker of an executor.
-template <class What>
-void run_shard(const What& what, const std::string& directory, const std::vector<std::string>& plugins,
-               bool fresh, std::size_t number, std::size_t of) {
+void run_shard(const PythonExperiment& self, const std::string& directory, bool fresh, std::size_t number,
+               std::size_t of) {
     Watch watch{py::none()};
     const py::gil_scoped_release others;
-    Diagnostics diagnostics;
-    auto prepared = prepare_part(what, directory, plugins, diagnostics);
-    throw_errors(diagnostics);
-    run_part(*prepared, Shard{number, of}, 1, fresh, watch.callbacks());
+    auto prepared = self.prepare(directory);
+    run_part(prepared, Shard{number, of}, 1, fresh, watch.callbacks());
     watch.rethrow();
 }
 
 /// The round of an experiment that parts work on, and how many of its runs have no result yet.
-template <class What>
-std::pair<std::size_t, std::size_t> missing_runs(const What& what, const std::string& directory,
-                                                 const std::vector<std::string>& plugins) {
+std::pair<std::size_t, std::size_t> missing_runs(const PythonExperiment& self, const std::string& directory) {
     const py::gil_scoped_release others;
-    Diagnostics diagnostics;
-    auto prepared = prepare_part(what, directory, plugins, diagnostics);
-    throw_errors(diagnostics);
-    const PartResults found = read_results(*prepared);
-    return {prepared->round, found.results.size() - found.finished() - found.failed()};
+    auto prepared = self.prepare(directory);
+    const PartResults found = read_results(prepared);
+    return {prepared.round, found.results.size() - found.finished() - found.failed()};
 }
-
-/// A sweep, as Python describes it.
-struct PythonSweep {
-    model::Experiment experiment;
-    std::vector<std::string> plugins;
-};
 
 std::vector<std::string> values_of(const py::iterable& values) {
     std::vector<std::string> out;
@@ -184,47 +183,37 @@ std::vector<model::Sweep> sweeps_of(const py::dict& values) {
     return out;
 }
 
-PythonSweep make_sweep(const ExperimentPath& system, const std::optional<ExperimentPath>& world,
-                       const py::dict& values, const std::vector<std::uint64_t>& seeds,
-                       const py::object& settings, const std::vector<ExperimentPath>& plugins, bool noise,
-                       std::optional<double> real_time_factor, std::optional<std::uint64_t> cycles,
-                       std::optional<double> seconds, std::optional<std::uint64_t> trials,
-                       double trial_timeout, const std::string& until, const py::dict& measures,
-                       const std::map<std::string, py::dict>& adaptations) {
-    PythonSweep out;
-    auto& e = out.experiment;
-    e.path = system.string(), e.systems = {{system.string()}};
-    e.world = world ? world->string() : std::string();
-    e.sweeps = sweeps_of(values), e.seeds = seeds;
-    for (const auto& text : assignments(settings)) e.settings.push_back({text});
-    e.noise = noise, e.real_time_factor = real_time_factor;
-    e.cycles = cycles, e.seconds = seconds, e.trials = trials;
-    e.trial_timeout = trial_timeout, e.until = {until};
+/// A sweep with the arguments of forage.sweep().
+PythonExperiment make_sweep(const py::kwargs& given) {
+    std::vector<std::string> plugins;
+    model::Experiment e;
+    take(given, "system", e.path), take(given, "world", e.world), take(given, "plugins", plugins);
+    take(given, "seeds", e.seeds), take(given, "noise", e.noise), take(given, "until", e.until.text);
+    take(given, "real_time_factor", e.real_time_factor), take(given, "trial_timeout", e.trial_timeout);
+    take(given, "cycles", e.cycles), take(given, "seconds", e.seconds), take(given, "trials", e.trials);
+    e.systems = {{e.path}}, e.sweeps = sweeps_of(given["values"]);
+    for (const auto& text : assignments(given["settings"])) e.settings.push_back({text});
     Diagnostics diagnostics;
-    for (const auto& [name, kind] : measures)
+    for (const auto& [name, kind] : given["measures"].cast<py::dict>())
         e.measures.push_back(measure_of(name.cast<std::string>(), kind.cast<py::dict>(), diagnostics));
-    for (const auto& [kind, options] : adaptations) {
+    for (const auto& [kind, options] : given["adaptations"].cast<py::dict>()) {
         if (e.adaptation)
             diagnostics.error({}, "halving and confidence exclude each other", "leave out one of them");
-        e.adaptation = adaptation_of(kind, options, diagnostics);
+        e.adaptation = adaptation_of(kind.cast<std::string>(), options.cast<py::dict>(), diagnostics);
     }
     model::check_adaptation(e, diagnostics);
-    if (seeds.empty())
+    if (e.seeds.empty())
         diagnostics.error({}, "sweep: there is no seed", "seeds=5 stands for the seeds 1 to 5");
     throw_errors(diagnostics);
-    for (const auto& p : plugins) out.plugins.push_back(p.string());
-    return out;
+    return {std::move(e), std::move(plugins)};
 }
 
-/// The runs, after all mistakes in them were reported: (name, values, seed, settings) of each.
-py::list planned(const PythonSweep& self) {
-    Diagnostics warnings;
-    RunPlan runs;
-    {
+/// The runs of a sweep, after all mistakes in them were reported: (name, values, seed, settings) of each.
+py::list planned(const PythonExperiment& self) {
+    const RunPlan runs = warned([&](Diagnostics* warnings) {
         const py::gil_scoped_release others;
-        runs = forage::plan(self.experiment, self.plugins, &warnings);
-    }
-    warn(warnings);
+        return forage::plan(std::get<model::Experiment>(self.what), self.plugins, warnings);
+    });
     py::list out;
     for (std::size_t i = 0; i < runs.size(); ++i) {
         const PlannedRun run = runs[i];
@@ -238,26 +227,16 @@ py::list planned(const PythonSweep& self) {
 }  // namespace
 
 void add_experiments(py::module_& module) {
-    const auto none = py::none();
-    module.def("_experiment", &run_all<std::string>);
-    module.def("_experiment_part", &run_shard<std::string>);
-    module.def("_experiment_missing", &missing_runs<std::string>);
-    py::class_<PythonSweep>(module, "_Sweep")
-        .def(py::init(&make_sweep), py::kw_only(), "system"_a, "world"_a, "values"_a, "seeds"_a, "settings"_a,
-             "plugins"_a, "noise"_a, "real_time_factor"_a, "cycles"_a, "seconds"_a, "trials"_a,
-             "trial_timeout"_a, "until"_a, "measures"_a, "adaptations"_a)
+    py::class_<PythonExperiment>(module, "_Experiment")
+        .def(py::init([](const std::string& file, const std::vector<std::string>& plugins) {
+                 return PythonExperiment{file, plugins};
+             }),
+             "file"_a, "plugins"_a)
+        .def(py::init(&make_sweep))
         .def("plan", &planned)
-        .def("part",
-             [](const PythonSweep& self, const std::string& directory, std::size_t number, std::size_t of) {
-                 run_shard(self.experiment, directory, self.plugins, false, number, of);
-             })
-        .def("missing",
-             [](const PythonSweep& self, const std::string& directory) {
-                 return missing_runs(self.experiment, directory, self.plugins);
-             })
-        .def("run", [](const PythonSweep& self, const std::string& directory, int jobs, py::object progress) {
-            return run_all(self.experiment, directory, self.plugins, jobs, false, std::move(progress));
-        });
+        .def("part", &run_shard)
+        .def("missing", &missing_runs)
+        .def("run", &run_all);
     module.def("_cores", &cores);
 }
 

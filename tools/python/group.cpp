@@ -16,21 +16,16 @@ using observe::Manipulation;
 
 constexpr const char* input_names[] = {"excIn", "inhIn", "modIn"};
 
-void make_read_only(const py::array& array) { array.attr("flags").attr("writeable") = false; }
-
-/// An array that shows `column` and keeps its run in memory.
-py::object view(const ConstColumn& column, const GroupShape& shape, const std::shared_ptr<Run>& owner) {
-    const py::capsule keeper(new std::shared_ptr<Run>(owner),
-                             [](void* p) { delete static_cast<std::shared_ptr<Run>*>(p); });
-    py::array_t<double> out(shape_of(shape), column.data(), keeper);
-    make_read_only(out);
+/// A read-only array of the numbers of `column`: a copy of them, or a view when it has an owner of them.
+py::object column_array(const ConstColumn& column, const GroupShape& shape, const py::handle& owner = {}) {
+    py::array_t<double> out(shape_of(shape), column.data(), owner);
+    out.attr("flags").attr("writeable") = false;
     return out;
 }
 
-py::object copy(const ConstColumn& column, const GroupShape& shape) {
-    py::array_t<double> out(shape_of(shape), column.data());
-    make_read_only(out);
-    return out;
+/// What keeps a run in memory.
+py::capsule keeper(const std::shared_ptr<Run>& run) {
+    return {new std::shared_ptr<Run>(run), [](void* p) { delete static_cast<std::shared_ptr<Run>*>(p); }};
 }
 
 py::object state(const PythonGroup& group, int number) {
@@ -41,9 +36,9 @@ py::object state(const PythonGroup& group, int number) {
     run.require(wanted, fmt::format("'{}'", about.path));
     const auto& simulation = run.simulation();
     const auto column = simulation.state(group.number, number);
-    if (!simulation.in_place(group.number, number)) return copy(column, about.shape);
+    if (!simulation.in_place(group.number, number)) return column_array(column, about.shape);
     return group.run->view_of(group.number, number,
-                              [&] { return view(column, about.shape, group.run->owner()); });
+                              [&] { return column_array(column, about.shape, keeper(group.run->owner())); });
 }
 
 py::object input(const PythonGroup& group, InputKind kind) {
@@ -52,7 +47,7 @@ py::object input(const PythonGroup& group, InputKind kind) {
     engine::Demand wanted;
     wanted.read_input(group.number);
     run.require(wanted, fmt::format("the input of '{}'", about.path));
-    return copy(run.simulation().input(group.number, kind), about.shape);
+    return column_array(run.simulation().input(group.number, kind), about.shape);
 }
 
 /// The index of the state with this name; -1 when there is none.
@@ -97,8 +92,9 @@ std::vector<std::vector<double>> patterns_of(const py::object& values, const Gro
     return out;
 }
 
-PythonManipulation manipulate(PythonGroup& self, Manipulation::Mode mode, const py::object& values,
-                              std::uint64_t every, std::optional<std::uint64_t> times) {
+template <Manipulation::Mode mode>
+PythonManipulation manipulate(PythonGroup& self, const py::object& values, std::uint64_t every,
+                              std::optional<std::uint64_t> times) {
     const auto& about = self.about();
     if (every == 0) throw InputError("every is 0", "1 applies a pattern in every cycle");
     if (times && *times == 0) throw InputError("times is 0", "leave it out to repeat the patterns endlessly");
@@ -109,12 +105,6 @@ PythonManipulation manipulate(PythonGroup& self, Manipulation::Mode mode, const 
                                .every = every,
                                .times = times});
     return {self.run, &self.run->use().add(std::move(made))};
-}
-
-template <Manipulation::Mode mode>
-PythonManipulation manipulate(PythonGroup& self, const py::object& values, std::uint64_t every,
-                              std::optional<std::uint64_t> times) {
-    return manipulate(self, mode, values, every, times);
 }
 
 void set(PythonGroup& self, const py::object& values, const std::optional<std::string>& state) {
@@ -145,9 +135,9 @@ std::string repr(const PythonManipulation& self) {
 }  // namespace
 
 PythonGroup find_group(PythonRun& run, const std::string& path) {
-    Diagnostics diagnostics;
-    const auto column = observe::find_column(run.use().layout(), path, "run[...]", diagnostics);
-    throw_errors(diagnostics);
+    const auto column = checked([&](Diagnostics& mistakes) {
+        return observe::find_column(run.use().layout(), path, "run[...]", mistakes);
+    });
     if (column->connection >= 0)
         throw InputError(fmt::format("'{}' names a connection, not a group", path),
                          "read its synapses with run.read() or run.probe()");

@@ -1,6 +1,7 @@
 // Runs: opened from files, resumed from a saved state, and the methods that Python has for them.
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -36,6 +37,7 @@ std::shared_ptr<PythonRun> open_run(const std::variant<Path, SystemPointer>& sys
     OpenOptions options{.world = world ? world->string() : std::string(),
                         .seed = seed,
                         .settings = assignments(settings),
+                        .plugins = texts_of(plugins),
                         .threads = threads,
                         .lenient = lenient,
                         .noise = noise,
@@ -43,25 +45,15 @@ std::shared_ptr<PythonRun> open_run(const std::variant<Path, SystemPointer>& sys
                         .observe = observe,
                         .overwrite = overwrite,
                         .paths = true};
-    for (const auto& p : plugins) options.plugins.push_back(p.string());
     const auto* const path = std::get_if<Path>(&system);
     const auto* const built = std::get_if<SystemPointer>(&system);
     if (built && !*built) throw py::type_error("the system is None");
     const auto file = built ? std::optional((*built)->file()) : std::nullopt;  // as it is now
-    Diagnostics warnings;
-    std::shared_ptr<PythonRun> run;
-    {
+    return warned([&](Diagnostics* warnings) {
         const py::gil_scoped_release others;
-        run = std::make_shared<PythonRun>(file ? open(*file, options, &warnings)
-                                               : open(path->string(), options, &warnings));
-    }
-    warn(warnings);
-    return run;
-}
-
-std::string file_content(const std::string& path) {
-    auto in = open_file(path);
-    return {std::istreambuf_iterator<char>(in), {}};
+        return std::make_shared<PythonRun>(file ? open(*file, options, warnings)
+                                                : open(path->string(), options, warnings));
+    });
 }
 
 /// Resumes a run from what save() wrote: bytes, a file that is open to be read, or the path of a file.
@@ -71,8 +63,10 @@ std::shared_ptr<PythonRun> resume_run(const py::object& state) {
         bytes = state.cast<std::string>();
     else if (py::hasattr(state, "read"))
         bytes = state.attr("read")().cast<std::string>();
-    else
-        bytes = file_content(state.cast<Path>().string());
+    else {
+        auto in = open_file(state.cast<Path>().string());
+        bytes.assign(std::istreambuf_iterator<char>(in), {});
+    }
     const py::gil_scoped_release others;
     return std::make_shared<PythonRun>(resume(bytes));
 }
@@ -83,12 +77,7 @@ py::object save(PythonRun& self, const py::object& file) {
     if (py::hasattr(file, "write"))
         file.attr("write")(py::bytes(bytes));
     else
-        try {
-            write_durably(file.cast<Path>().string(), bytes);
-        } catch (const std::runtime_error& e) {
-            PyErr_SetString(PyExc_OSError, e.what());
-            throw py::error_already_set();
-        }
+        writing([&] { write_durably(file.cast<Path>().string(), bytes); });
     return py::none();
 }
 
@@ -129,9 +118,9 @@ bool run_until(PythonRun& self, const std::string& condition, Count cycles, Seco
 }
 
 py::array read(PythonRun& self, const std::string& source) {
-    Diagnostics diagnostics;
-    const auto found = observe::find_source(self.use().layout(), source, "read", diagnostics);
-    throw_errors(diagnostics);
+    const auto found = checked([&](Diagnostics& mistakes) {
+        return observe::find_source(self.use().layout(), source, "read", mistakes);
+    });
     return array_of(self.use().read(source), shape_of(found->what()));
 }
 
@@ -221,27 +210,22 @@ callback, it is a decorator: @run.on_cycle(every=100).)")
         .def("close", &PythonRun::close,
              "Frees the run, apart from what views and probes show. Other uses then raise RunError.")
         .def_property_readonly("closed", &PythonRun::closed, "Whether the run is closed.");
+    const auto of_run = [&](const char* name, auto get, const char* doc) {
+        run.def_property_readonly(
+            name, [get](const PythonRun& self) { return std::invoke(get, self.use()); }, doc);
+    };
+    of_run("cycle", &Run::cycle, "The number of completed cycles, which is also the number of the next one.");
+    of_run("seconds", &Run::seconds, "The time since the start, in seconds of the world.");
+    of_run("seconds_per_cycle", &Run::seconds_per_cycle, "The length of a cycle, in seconds of the world.");
+    of_run(
+        "trial", [](const Run& r) { return r.time().trial; },
+        "The running trial, from 1; 0 in a run without trials.");
+    of_run("seed", &Run::seed, "The number that decides everything random.");
+    of_run("divergence", &Run::divergence,
+           "The first number that was NaN or infinite, in words; empty while all numbers are finite.");
     run.def_property_readonly(
-           "cycle", [](const PythonRun& self) { return self.use().cycle(); },
-           "The number of completed cycles, which is also the number of the next one.")
-        .def_property_readonly(
-            "seconds", [](const PythonRun& self) { return self.use().seconds(); },
-            "The time since the start, in seconds of the world.")
-        .def_property_readonly(
-            "seconds_per_cycle", [](const PythonRun& self) { return self.use().seconds_per_cycle(); },
-            "The length of a cycle, in seconds of the world.")
-        .def_property_readonly(
-            "trial", [](const PythonRun& self) { return self.use().time().trial; },
-            "The running trial, from 1; 0 in a run without trials.")
-        .def_property_readonly(
-            "seed", [](const PythonRun& self) { return self.use().seed(); },
-            "The number that decides everything random.")
-        .def_property_readonly(
-            "divergence", [](const PythonRun& self) { return self.use().divergence(); },
-            "The first number that was NaN or infinite, in words; empty while all numbers are finite.")
-        .def_property_readonly(
-            "groups", [](const PythonRun& self) { return py::tuple(py::cast(group_paths(self))); },
-            R"(The names of all groups, "Process/Group".)")
+           "groups", [](const PythonRun& self) { return py::tuple(py::cast(group_paths(self))); },
+           R"(The names of all groups, "Process/Group".)")
         .def_property_readonly(
             "params", [](PythonRun& self) { return Parameters{self.shared_from_this()}; },
             "The parameters, by name, to read and to set.")

@@ -4,6 +4,8 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "tools/python/values.h"
+
 namespace forage::python {
 
 void PythonFilm::close() {
@@ -12,9 +14,8 @@ void PythonFilm::close() {
 }
 
 py::object plot(PythonRun& run, const std::string& picture, const std::string& format, std::size_t robot) {
-    Diagnostics warnings;
-    const std::string content = draw(run.use(), picture, format, robot, &warnings);
-    warn(warnings);
+    const std::string content =
+        warned([&](Diagnostics* warnings) { return draw(run.use(), picture, format, robot, warnings); });
     const bool movie = picture.starts_with("movie:");
     return py::module_::import("forage._picture").attr("Picture")(py::bytes(content), movie ? "gif" : format);
 }

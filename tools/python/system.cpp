@@ -19,12 +19,6 @@ using Path = std::filesystem::path;
 using Paths = std::vector<Path>;
 using SystemPointer = std::shared_ptr<PythonSystem>;
 
-std::vector<std::string> texts_of(const Paths& paths) {
-    std::vector<std::string> out;
-    for (const auto& p : paths) out.push_back(p.string());
-    return out;
-}
-
 SystemPointer make_system(const std::string& name, double cycles_per_second, const Paths& plugins) {
     auto out = std::make_shared<PythonSystem>(new_system(name, texts_of(plugins)));
     out->model.cycles_per_second = cycles_per_second;
@@ -32,19 +26,15 @@ SystemPointer make_system(const std::string& name, double cycles_per_second, con
 }
 
 SystemPointer read_file(const Path& path, const Paths& plugins, bool lenient) {
-    Diagnostics warnings;
-    auto out =
-        std::make_shared<PythonSystem>(read_system(path.string(), texts_of(plugins), lenient, &warnings));
-    warn(warnings);
-    return out;
+    return std::make_shared<PythonSystem>(warned([&](Diagnostics* warnings) {
+        return read_system(path.string(), texts_of(plugins), lenient, warnings);
+    }));
 }
 
 SystemPointer parse_text(const std::string& text, const std::optional<Path>& path, const Paths& plugins) {
-    Diagnostics warnings;
-    auto out = std::make_shared<PythonSystem>(
-        parse_system(text, path ? path->string() : "system.iqr", texts_of(plugins), &warnings));
-    warn(warnings);
-    return out;
+    return std::make_shared<PythonSystem>(warned([&](Diagnostics* warnings) {
+        return parse_system(text, path ? path->string() : "system.iqr", texts_of(plugins), warnings);
+    }));
 }
 
 SystemPointer copy_of(const PythonSystem& self) { return std::make_shared<PythonSystem>(self.file()); }
@@ -86,18 +76,19 @@ SystemConnection connect(PythonSystem& self, const py::object& source, const py:
     if (!arborization.is_none())
         wanted.arborization = argument<model::Arborization>(arborization, "arborization", "an Arborization");
     wanted.attenuation = function_of(attenuation), wanted.delay = function_of(delay);
-    const std::string made = model::add_connection(self.model, from, to, input, synapse, id);
-    auto& c = *model::find_connection(self.model, made);
+    const SystemConnection out{
+        {self.shared_from_this(), model::add_connection(self.model, from, to, input, synapse, id)}};
+    auto& c = out.use();
     if (!name.empty()) c.name = name;
     c.pattern = std::move(wanted.pattern), c.arborization = wanted.arborization;
     c.attenuation = wanted.attenuation, c.delay = wanted.delay;
     try {
-        SystemParameters{self.shared_from_this(), model::Assignment::Owner::connection, made}.set(parameters);
+        SystemParameters(out).set(parameters);
     } catch (const InputError&) {
-        model::remove(self.model, made);
+        model::remove(self.model, out.id);
         throw;
     }
-    return {{self.shared_from_this(), made}};
+    return out;
 }
 
 void remove_item(PythonSystem& self, const py::object& what) {
@@ -119,11 +110,10 @@ py::object edit_system(PythonSystem& self, const py::object& operations) {
 
 py::object edit_the_file(const Path& path, const py::object& operations, const std::optional<Path>& save_as,
                          const std::vector<Path>& plugins) {
-    Diagnostics warnings;
-    auto made = edit_file(path.string(), as_json(operations), save_as ? save_as->string() : "",
-                          texts_of(plugins), &warnings);
-    warn(warnings);
-    return from_json(made);
+    return from_json(warned([&](Diagnostics* warnings) {
+        return edit_file(path.string(), as_json(operations), save_as ? save_as->string() : "",
+                         texts_of(plugins), warnings);
+    }));
 }
 
 SystemProcess import_file(PythonSystem& self, const Path& path) {
@@ -175,12 +165,6 @@ void leave(PythonSystem& self, const py::object& failure, const py::object&, con
     const Diagnostics found = failure.is_none() ? check(self, {}) : Diagnostics();
     if (!failure.is_none() || found.failed()) self.model = std::move(before);
     throw_errors(found);
-}
-
-template <class T>
-auto property(T model::System::*member) {
-    return std::pair([member](const PythonSystem& self) { return self.model.*member; },
-                     [member](PythonSystem& self, const T& value) { self.model.*member = value; });
 }
 
 }  // namespace
@@ -254,15 +238,12 @@ Raises InputError for mistakes in the system, and ValueError for another format.
         .def("copy", &copy_of, "An independent copy.")
         .def("__copy__", &copy_of)
         .def("__deepcopy__", [](const PythonSystem& self, const py::dict&) { return copy_of(self); });
-    const auto add = [&](const char* name, auto functions, const char* doc) {
-        system.def_property(name, functions.first, functions.second, doc);
-    };
-    add("name", property(&model::System::name), "The name, for people.");
-    add("author", property(&model::System::author), "The author.");
-    add("date", property(&model::System::date), "The date, as a text.");
-    add("note", property(&model::System::note), "A remark; None without one.");
-    add("cycles_per_second", property(&model::System::cycles_per_second),
-        "The rate of cycles, Hz; 0 counts as 25.");
+    add_member(system, "name", &model::System::name, "The name, for people.");
+    add_member(system, "author", &model::System::author, "The author.");
+    add_member(system, "date", &model::System::date, "The date, as a text.");
+    add_member(system, "note", &model::System::note, "A remark; None without one.");
+    add_member(system, "cycles_per_second", &model::System::cycles_per_second,
+               "The rate of cycles, Hz; 0 counts as 25.");
     system
         .def_readonly("plugins", &PythonSystem::plugins,
                       "The shared objects with types, and folders of them.")

@@ -15,6 +15,7 @@ namespace forage::python {
 /// A system.
 struct PythonSystem : SystemFile, std::enable_shared_from_this<PythonSystem> {
     explicit PythonSystem(SystemFile file) : SystemFile(std::move(file)) {}
+    model::System& use() { return model; }
     /// A copy, which other threads cannot change.
     SystemFile file() const { return static_cast<const SystemFile&>(*this); }
     std::vector<model::System> before;  ///< the system at the beginning of each with-block that is open
@@ -28,24 +29,39 @@ struct SystemItem {
 struct SystemProcess : SystemItem {
     /// The process. Throws InputError when it was removed.
     model::Process& use() const;
+    static constexpr auto owner = model::Assignment::Owner::process;
 };
 struct SystemGroup : SystemItem {
     model::Group& use() const;
+    static constexpr auto owner = model::Assignment::Owner::group;
 };
 struct SystemConnection : SystemItem {
     model::Connection& use() const;
+    static constexpr auto owner = model::Assignment::Owner::connection;
 };
 
 /// The parameters of an item: of a group's neuron, a process's module, or a connection's synapse.
-struct SystemParameters {
-    std::shared_ptr<PythonSystem> system;
+struct SystemParameters : SystemItem {
     model::Assignment::Owner owner;
-    std::string id;
 
+    template <class Item>
+    explicit SystemParameters(const Item& item) : SystemItem(item), owner(Item::owner) {}
+    py::object get(const std::string& name) const;
+    /// Throws InputError, as set() of several does.
+    void set(const std::string& name, const py::object& value) const;
     /// Sets the parameters in `values`. Throws InputError.
     void set(const py::dict& values) const;
     std::vector<std::string> names() const;
 };
+
+/// Adds a property to a class that shows a part of a model: one of the model's members.
+template <class Class, class Model, class T>
+void add_member(Class& type, const char* name, T Model::*member, const char* doc) {
+    using Self = typename Class::type;
+    type.def_property(
+        name, [member](Self& self) { return self.use().*member; },
+        [member](Self& self, const T& value) { self.use().*member = value; }, doc);
+}
 
 /// Adds the classes of its items to the class System.
 void add_system_items(py::handle system);

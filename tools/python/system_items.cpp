@@ -1,6 +1,4 @@
 // The processes, groups and connections of a system, and their parameters.
-#include <algorithm>
-
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -14,9 +12,10 @@ namespace {
 
 using namespace py::literals;
 using Owner = model::Assignment::Owner;
-using Note = std::optional<std::string>;
 
-[[noreturn]] void removed(const char* what, const std::string& id) {
+template <class Model>
+Model& existing(Model* item, const char* what, const std::string& id) {
+    if (item) return *item;
     throw InputError(fmt::format("the {} with the id '{}' is not part of its system any more", what, id));
 }
 
@@ -33,11 +32,11 @@ std::string path_of(const SystemGroup& self) {
 std::string where(const SystemParameters& self) {
     std::string name;
     if (self.owner == Owner::group)
-        name = path_of({{self.system, self.id}});
+        name = path_of({self});
     else if (self.owner == Owner::process)
-        name = name_of(SystemProcess{{self.system, self.id}}.use());
+        name = name_of(SystemProcess{self}.use());
     else
-        name = model::trim(SystemConnection{{self.system, self.id}}.use().name);
+        name = model::trim(SystemConnection{self}.use().name);
     Diagnostics ignored;
     const auto item = model::find_item(self.system->model, name, "", ignored);
     if (!item || item->id != self.id || item->owner != self.owner) name = self.id;
@@ -45,53 +44,35 @@ std::string where(const SystemParameters& self) {
 }
 
 model::Assignment find(const SystemParameters& self, const std::string& name) {
-    Diagnostics diagnostics;
-    auto found = model::find_parameter(self.system->model, *self.system->types,
-                                       fmt::format("{}.{}", where(self), name), "parameter", diagnostics);
-    throw_errors(diagnostics);
-    return std::move(*found);
+    return *checked([&](Diagnostics& found) {
+        return model::find_parameter(self.system->model, *self.system->types,
+                                     fmt::format("{}.{}", where(self), name), "parameter", found);
+    });
 }
 
 /// The type of the item; null when it has none.
 const std::vector<Parameter>* declared(const SystemParameters& self) {
     const auto parameters = [](const auto* type) { return type ? &type->parameters : nullptr; };
     const Registry& types = *self.system->types;
-    if (self.owner == Owner::group)
-        return parameters(types.neuron(SystemGroup{{self.system, self.id}}.use().neuron.type));
+    if (self.owner == Owner::group) return parameters(types.neuron(SystemGroup{self}.use().neuron.type));
     if (self.owner == Owner::process) {
-        const auto& module = SystemProcess{{self.system, self.id}}.use().module;
+        const auto& module = SystemProcess{self}.use().module;
         return module ? parameters(types.module(module->type)) : nullptr;
     }
-    const auto& synapse = SystemConnection{{self.system, self.id}}.use().synapse;
+    const auto& synapse = SystemConnection{self}.use().synapse;
     return synapse ? parameters(types.synapse(synapse->type)) : nullptr;
-}
-
-py::object get(const SystemParameters& self, const std::string& name) {
-    return value_of(model::value_of(self.system->model, find(self, name)));
 }
 
 void unset(const SystemParameters& self, const std::string& name) {
     model::unset(self.system->model, find(self, name));
 }
 
-void set_one(const SystemParameters& self, const std::string& name, const py::object& value) {
-    py::dict one;
-    one[py::str(name)] = value;
-    self.set(one);
-}
-
 std::string repr(const SystemParameters& self) {
     std::string out;
     for (const auto& name : self.names())
         out += fmt::format("{}{}={}", out.empty() ? "" : ", ", name,
-                           py::repr(get(self, name)).cast<std::string>());
+                           py::repr(self.get(name)).cast<std::string>());
     return fmt::format("<forage.System.Parameters: {}>", out);
-}
-
-SystemParameters parameters(const SystemGroup& self) { return {self.system, Owner::group, self.id}; }
-SystemParameters parameters(const SystemProcess& self) { return {self.system, Owner::process, self.id}; }
-SystemParameters parameters(const SystemConnection& self) {
-    return {self.system, Owner::connection, self.id};
 }
 
 std::vector<model::CrossReference> references(PythonSystem& system, const py::dict& groups) {
@@ -122,7 +103,7 @@ SystemProcess set_module(const SystemProcess& self, const py::object& module, co
     use.inputs = references(*self.system, inputs), use.outputs = references(*self.system, outputs);
     auto before = std::exchange(process.module, std::move(use));
     try {
-        parameters(self).set(values);
+        SystemParameters(self).set(values);
     } catch (const InputError&) {
         process.module = std::move(before);
         throw;
@@ -154,7 +135,7 @@ SystemGroup add_group(const SystemProcess& self, const std::string& name, int wi
     else
         out.use().topology = model::RectTopology{width, height, wrap_x, wrap_y};
     try {
-        parameters(out).set(values);
+        SystemParameters(out).set(values);
     } catch (const InputError&) {
         model::remove(system.model, out.id);
         throw;
@@ -262,30 +243,20 @@ std::string repr(const SystemConnection& self) {
 /// What all items have. == and hash are those of the item, not of its content.
 template <class Item>
 void add_common(py::class_<Item>& type) {
+    using Model = std::remove_reference_t<decltype(std::declval<Item>().use())>;
+    add_member(type, "name", &Model::name, "The name.");
+    add_member(type, "note", &Model::note, "A remark; None without one.");
     type.def_readonly("id", &Item::id, "The id, which is unique in the system.")
-        .def_property(
-            "name", [](const Item& self) { return self.use().name; },
-            [](const Item& self, const std::string& name) { self.use().name = name; }, "The name.")
-        .def_property(
-            "note", [](const Item& self) { return self.use().note; },
-            [](const Item& self, const Note& note) { self.use().note = note; }, "A remark; None without one.")
         .def_property_readonly(
             "system", [](const Item& self) { return self.system; }, "The system of which it is a part.")
         .def_property_readonly(
-            "params", [](const Item& self) { return parameters(self); },
+            "params", [](const Item& self) { return SystemParameters(self); },
             "The parameters of its type, by name, to read and to set.")
         .def(
             "__eq__", [](const Item& a, const Item& b) { return a.system == b.system && a.id == b.id; },
             py::is_operator())
         .def("__hash__", [](const Item& self) { return py::hash(py::str(self.id)); })
         .def("__repr__", [](const Item& self) { return repr(self); });
-}
-
-template <class Item, class T, class Model>
-void add_member(py::class_<Item>& type, const char* name, T Model::*member, const char* doc) {
-    type.def_property(
-        name, [member](const Item& self) { return self.use().*member; },
-        [member](const Item& self, const T& value) { self.use().*member = value; }, doc);
 }
 
 void add_processes(py::handle scope) {
@@ -346,8 +317,7 @@ void add_groups_of_systems(py::handle scope) {
             "process",
             [](const SystemGroup& self) {
                 const auto entry = model::GroupIndex(self.system->model).find(self.id);
-                if (!entry.process) removed("group", self.id);
-                return SystemProcess{{self.system, entry.process->id}};
+                return SystemProcess{{self.system, existing(entry.process, "group", self.id).id}};
             },
             "The process of which it is a part.")
         .def_property_readonly(
@@ -369,15 +339,14 @@ void add_groups_of_systems(py::handle scope) {
         .def_property(
             "points", &points,
             [](const SystemGroup& self, const py::iterable& all) { set_points(self.use(), all); },
-            "The cells that exist, a list of (x, y) from 1; None when all do.")
-        .def_property(
-            "wrap_x", [](const SystemGroup& self) { return rectangle(self.use()).wrap_x; },
-            [](const SystemGroup& self, bool wrap) { rectangle(self.use()).wrap_x = wrap; },
-            "Whether the left edge meets the right one.")
-        .def_property(
-            "wrap_y", [](const SystemGroup& self) { return rectangle(self.use()).wrap_y; },
-            [](const SystemGroup& self, bool wrap) { rectangle(self.use()).wrap_y = wrap; },
-            "Whether the upper edge meets the lower one.");
+            "The cells that exist, a list of (x, y) from 1; None when all do.");
+    const auto wrap = [&](const char* name, bool model::RectTopology::*member, const char* doc) {
+        type.def_property(
+            name, [member](const SystemGroup& self) { return rectangle(self.use()).*member; },
+            [member](const SystemGroup& self, bool wraps) { rectangle(self.use()).*member = wraps; }, doc);
+    };
+    wrap("wrap_x", &model::RectTopology::wrap_x, "Whether the left edge meets the right one.");
+    wrap("wrap_y", &model::RectTopology::wrap_y, "Whether the upper edge meets the lower one.");
 }
 
 void add_connections(py::handle scope) {
@@ -442,25 +411,14 @@ Several synapses of the same pair are added.)");
 }
 
 void add_system_parameters(py::handle scope) {
-    py::class_<SystemParameters>(
+    py::class_<SystemParameters> type(
         scope, "Parameters",
         R"(The parameters of an item's type, by name: group.params["threshold"] = 0.3.
 
 Those that are not set have the defaults of the type. A value that the type does not accept raises InputError at once; values outside the usual range give an
-InputWarning. `del` gives a parameter its default.)")
-        .def("__getitem__", &get, "name"_a)
-        .def("__setitem__", &set_one, "name"_a, "value"_a)
-        .def("__delitem__", &unset, "name"_a)
-        .def(
-            "__contains__",
-            [](const SystemParameters& self, const std::string& name) {
-                return std::ranges::count(self.names(), name) > 0;
-            },
-            "name"_a)
-        .def("__iter__", [](const SystemParameters& self) { return py::iter(py::cast(self.names())); })
-        .def("__len__", [](const SystemParameters& self) { return self.names().size(); })
-        .def("keys", &SystemParameters::names, "The names.")
-        .def("_repr_html_", html("parameters"))
+InputWarning. `del` gives a parameter its default.)");
+    add_mapping(type);
+    type.def("__delitem__", &unset, "name"_a)
         .def(
             "update", [](const SystemParameters& self, const py::kwargs& values) { self.set(values); },
             "Sets several at once, or none when one is wrong: update(threshold=0.3, vmPrs=0.5).")
@@ -470,16 +428,21 @@ InputWarning. `del` gives a parameter its default.)")
 }  // namespace
 
 model::Process& SystemProcess::use() const {
-    if (auto* p = model::find_process(system->model, id)) return *p;
-    removed("process", id);
+    return existing(model::find_process(system->model, id), "process", id);
 }
-model::Group& SystemGroup::use() const {
-    if (auto* g = model::find_group(system->model, id)) return *g;
-    removed("group", id);
-}
+model::Group& SystemGroup::use() const { return existing(model::find_group(system->model, id), "group", id); }
 model::Connection& SystemConnection::use() const {
-    if (auto* c = model::find_connection(system->model, id)) return *c;
-    removed("connection", id);
+    return existing(model::find_connection(system->model, id), "connection", id);
+}
+
+py::object SystemParameters::get(const std::string& name) const {
+    return value_of(model::value_of(system->model, find(*this, name)));
+}
+
+void SystemParameters::set(const std::string& name, const py::object& value) const {
+    py::dict one;
+    one[py::str(name)] = value;
+    set(one);
 }
 
 std::vector<std::string> SystemParameters::names() const {
@@ -525,9 +488,8 @@ SystemGroup group_of(PythonSystem& system, const py::object& group) {
 }
 
 py::object item_of(PythonSystem& system, const std::string& name) {
-    Diagnostics diagnostics;
-    const auto found = model::find_item(system.model, name, "system", diagnostics);
-    throw_errors(diagnostics);
+    const auto found = checked(
+        [&](Diagnostics& mistakes) { return model::find_item(system.model, name, "system", mistakes); });
     const SystemItem item{system.shared_from_this(), found->id};
     if (found->owner == Owner::group) return py::cast(SystemGroup{item});
     if (found->owner == Owner::process) return py::cast(SystemProcess{item});

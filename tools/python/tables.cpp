@@ -45,19 +45,20 @@ py::tuple row_of(const MeasuredTrials& all, std::size_t i) {
                           filled(&MemoryFill::segments));
 }
 
-/// The names of all parameters.
-py::list names_of(const Parameters& self) {
-    const Run& run = self.run->use();
-    return py::cast(model::parameter_names(run.system(), run.registry()));
-}
+}  // namespace
 
-void set_parameter(const Parameters& self, const std::string& name, const py::object& value) {
+py::object Parameters::get(const std::string& name) const { return value_of(run->use().parameter(name)); }
+
+void Parameters::set(const std::string& name, const py::object& value) const {
     Diagnostics warnings;
-    self.run->use().set(fmt::format("{}={}", name, text_of(value)), &warnings);
+    run->use().set(fmt::format("{}={}", name, text_of(value)), &warnings);
     warn(warnings);
 }
 
-}  // namespace
+std::vector<std::string> Parameters::names() const {
+    const Run& used = run->use();
+    return model::parameter_names(used.system(), used.registry());
+}
 
 py::array trials(PythonRun& run, std::size_t robot) {
     const MeasuredTrials all = run.use().trials(robot);
@@ -152,26 +153,18 @@ py::array measures(PythonRun& run) {
 }
 
 void add_parameters(py::module_& module) {
-    py::class_<Parameters>(module, "Parameters",
-                           R"(The parameters of a run: run.params["Process/Group.threshold"].
+    py::class_<Parameters> type(module, "Parameters",
+                                R"(The parameters of a run: run.params["Process/Group.threshold"].
 
 Names are those of `forage run --set`: "Process/Group.parameter", "Process.parameter" of a module, "Connection.parameter" of a synapse. A value is a
 bool, int, float or str. Setting one acts from the next cycle on; it raises InputError for unknown names, values that the type refuses, and parameters
-that are read at the start only, and warns of values outside the usual range.)")
-        .def("__getitem__", [](const Parameters& self,
-                               const std::string& name) { return value_of(self.run->use().parameter(name)); })
-        .def("__setitem__", &set_parameter)
-        .def("__contains__",
-             [](const Parameters& self, const py::object& name) { return names_of(self).contains(name); })
-        .def("__iter__", [](const Parameters& self) { return py::iter(names_of(self)); })
-        .def("__len__", [](const Parameters& self) { return py::len(names_of(self)); })
-        .def("keys", &names_of, "The names of all parameters.")
-        .def("_repr_html_", html("parameters"))
-        .def("__repr__", [](const Parameters& self) {
-            if (const auto why = self.run->obstacle(); !why.empty())
-                return fmt::format("<forage.Parameters of a run that is {}>", why);
-            return fmt::format("<forage.Parameters, {}>", py::len(names_of(self)));
-        });
+that are read at the start only, and warns of values outside the usual range.)");
+    add_mapping(type);
+    type.def("__repr__", [](const Parameters& self) {
+        if (const auto why = self.run->obstacle(); !why.empty())
+            return fmt::format("<forage.Parameters of a run that is {}>", why);
+        return fmt::format("<forage.Parameters, {}>", self.names().size());
+    });
 }
 
 }  // namespace forage::python

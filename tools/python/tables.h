@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "tools/python/run.h"
 
@@ -11,6 +12,10 @@ namespace forage::python {
 /// The parameters of a run, by name.
 struct Parameters {
     std::shared_ptr<PythonRun> run;
+
+    py::object get(const std::string& name) const;
+    void set(const std::string& name, const py::object& value) const;
+    std::vector<std::string> names() const;
 };
 
 /// The finished trials of a robot: a structured array with the columns of trials.csv.

@@ -34,9 +34,7 @@ struct Declared {
 };
 using DeclaredPointer = std::shared_ptr<const Declared>;
 
-std::string text_attribute(const py::object& from, const char* name) {
-    return from.attr(name).cast<std::string>();
-}
+std::string text_attribute(py::handle from, const char* name) { return from.attr(name).cast<std::string>(); }
 
 ParameterValue number_or_text(const py::object& value) {
     if (py::isinstance<py::bool_>(value)) return value.cast<bool>();
@@ -60,8 +58,7 @@ void in_python(Function function) {
     } catch (py::error_already_set& e) {
         const py::object& raised = e.value();
         if (e.trace()) PyException_SetTraceback(raised.ptr(), e.trace().ptr());
-        const auto type = py::type::handle_of(raised).attr("__name__").cast<std::string>();
-        const auto words = py::str(raised).cast<std::string>();
+        const auto type = class_name(raised), words = py::str(raised).cast<std::string>();
         throw PythonFailure(words.empty() ? type : fmt::format("{}: {}", type, words), hold(raised));
     }
 }
@@ -255,16 +252,15 @@ class PythonModule final : public ModuleInstance {
   private:
     void call(const char* function, ModuleFrame& frame) {
         in_python([&] {
-            py::dict inputs, shapes;
-            for (std::size_t i = 0; i < inputs_.size(); ++i) {
-                const auto shape =
-                    inputs_[i].shape.cells ? shape_of(inputs_[i].shape) : std::vector<py::ssize_t>{0};
-                inputs[py::str(inputs_[i].port)] =
-                    read_only(copy_column(frame.input(i))).attr("reshape")(py::tuple(py::cast(shape)));
-            }
-            for (const auto& group : outputs_)
-                shapes[py::str(group.port)] = py::tuple(
+            const auto shape = [](const ModulePorts::Group& group) {
+                return py::tuple(
                     py::cast(group.shape.cells ? shape_of(group.shape) : std::vector<py::ssize_t>{0}));
+            };
+            py::dict inputs, shapes;
+            for (std::size_t i = 0; i < inputs_.size(); ++i)
+                inputs[py::str(inputs_[i].port)] =
+                    read_only(copy_column(frame.input(i))).attr("reshape")(shape(inputs_[i]));
+            for (const auto& group : outputs_) shapes[py::str(group.port)] = shape(group);
             const DrawsOfCall draws(random_, frame.cycle());
             const py::dict written = object_.call(function, inputs, shapes, draws.object(), frame.cycle());
             for (std::size_t i = 0; i < outputs_.size(); ++i)
@@ -286,8 +282,7 @@ DeclaredPointer declare(const py::object& given, Type& type) {
     out->functions = hold(given);
     type.name = text_attribute(given, "name"), type.label = text_attribute(given, "label"),
     type.doc = text_attribute(given, "doc");
-    for (const auto& item : given.attr("parameters").cast<py::list>()) {
-        const auto about = py::reinterpret_borrow<py::object>(item);
+    for (const auto& about : given.attr("parameters")) {
         Parameter p{.name = text_attribute(about, "name"),
                     .label = text_attribute(about, "label"),
                     .doc = text_attribute(about, "doc"),
@@ -336,8 +331,7 @@ std::vector<std::string> names_of(const std::vector<Info>& infos) {
 void add_neuron(const py::object& given) {
     NeuronType type;
     const auto declared = declare(given, type);
-    for (const auto& item : given.attr("states").cast<py::list>()) {
-        const auto s = py::reinterpret_borrow<py::object>(item);
+    for (const auto& s : given.attr("states")) {
         const bool output = s.attr("output").cast<bool>();
         type.states.push_back({.name = text_attribute(s, "name"),
                                .label = text_attribute(s, "label"),
@@ -346,8 +340,7 @@ void add_neuron(const py::object& given) {
                                .feedback = output || s.attr("feedback").cast<bool>(),
                                .initial = s.attr("initial").cast<double>()});
     }
-    const auto reads = given.attr("reads").cast<std::array<bool, input_kinds>>();
-    type.reads = reads;
+    type.reads = given.attr("reads").cast<std::array<bool, input_kinds>>();
     type.make = [declared, states = names_of(type.states)] {
         return std::make_unique<PythonNeuron>(declared, states);
     };
@@ -357,18 +350,14 @@ void add_neuron(const py::object& given) {
 void add_synapse(const py::object& given) {
     SynapseType type;
     const auto declared = declare(given, type);
-    for (const auto& item : given.attr("states").cast<py::list>()) {
-        const auto s = py::reinterpret_borrow<py::object>(item);
+    for (const auto& s : given.attr("states"))
         type.states.push_back({.name = text_attribute(s, "name"),
                                .label = text_attribute(s, "label"),
                                .output = s.attr("output").cast<bool>(),
                                .initial = s.attr("initial").cast<double>()});
-    }
-    for (const auto& item : given.attr("feedback").cast<py::list>()) {
-        const auto f = py::reinterpret_borrow<py::object>(item);
+    for (const auto& f : given.attr("feedback"))
         type.feedback.push_back(
             {text_attribute(f, "name"), text_attribute(f, "label"), f.attr("required").cast<bool>()});
-    }
     type.make = [declared, states = names_of(type.states), feedback = names_of(type.feedback)] {
         return std::make_unique<PythonSynapse>(declared, states, feedback);
     };
@@ -378,8 +367,7 @@ void add_synapse(const py::object& given) {
 void add_module(const py::object& given) {
     ModuleType type;
     const auto declared = declare(given, type);
-    for (const auto& item : given.attr("ports").cast<py::list>()) {
-        const auto p = py::reinterpret_borrow<py::object>(item);
+    for (const auto& p : given.attr("ports")) {
         ModulePort port{.name = text_attribute(p, "name"),
                         .label = text_attribute(p, "label"),
                         .is_output = p.attr("output").cast<bool>(),
@@ -418,11 +406,9 @@ void list_kind(const Types& types, const char* kind, py::list& out) {
 }
 
 py::list list_types(const std::vector<std::filesystem::path>& plugins) {
-    std::vector<std::string> paths;
-    for (const auto& p : plugins) paths.push_back(p.string());
     const Registry registry = [&] {
         const py::gil_scoped_release others;
-        return types(paths);
+        return types(texts_of(plugins));
     }();
     py::list out;
     list_kind(registry.neurons(), "neuron", out);

@@ -12,6 +12,14 @@ std::string shape_text(const std::vector<py::ssize_t>& shape) {
 
 }  // namespace
 
+std::string class_name(const py::handle& value) {
+    return py::type::handle_of(value).attr("__name__").cast<std::string>();
+}
+
+std::vector<std::string> texts_of(const std::vector<std::filesystem::path>& paths) {
+    return {paths.begin(), paths.end()};
+}
+
 std::string text_of(const py::handle& value) {
     if (py::isinstance<py::bool_>(value)) return value.cast<bool>() ? "true" : "false";
     return py::str(value);

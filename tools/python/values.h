@@ -1,6 +1,7 @@
 // Python's values as those of the library, and back.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -8,17 +9,51 @@
 
 namespace forage::python {
 
+/// The result of `call`, which is called with the Diagnostics for what it finds. Throws InputError for errors
+/// among them.
+template <class Call>
+auto checked(Call call) {
+    Diagnostics found;
+    auto out = call(found);
+    throw_errors(found);
+    return out;
+}
+/// The result of `call`, which is called with a pointer to the Diagnostics for warnings. Issues them as
+/// forage.InputWarning.
+template <class Call>
+auto warned(Call call) {
+    Diagnostics warnings;
+    auto out = call(&warnings);
+    warn(warnings);
+    return out;
+}
+
+/// The name of the class of a value.
+std::string class_name(const py::handle& value);
+
 /// `value` as a T. Raises TypeError, which says that `what` is `expected`, for another type.
 template <class T>
 T argument(const py::handle& value, const char* what, const char* expected) {
     try {
         return value.cast<T>();
     } catch (const py::cast_error&) {
-        const auto type = py::type::handle_of(value).attr("__name__").cast<std::string>();
-        throw py::type_error(std::string(what) + " is " + expected + ", not a value of type " + type);
+        throw py::type_error(std::string(what) + " is " + expected + ", not a value of type " +
+                             class_name(value));
     }
 }
 
+/// Gives `value` the keyword argument with this name. Raises TypeError when it has another type.
+template <class T>
+void take(const py::kwargs& given, const char* name, T& value) {
+    try {
+        value = given[name].cast<T>();
+    } catch (const py::cast_error&) {
+        throw py::type_error(std::string(name) + " cannot be a value of type " + class_name(given[name]));
+    }
+}
+
+/// Paths as texts.
+std::vector<std::string> texts_of(const std::vector<std::filesystem::path>& paths);
 /// A value as assignments spell it: true, 0.3, text.
 std::string text_of(const py::handle& value);
 /// The name of a type: a text, or a class that is a type (forage/_types.py).
@@ -27,6 +62,23 @@ std::string type_name(const py::object& type);
 py::object value_of(const ParameterValue& value);
 /// The assignments in a dictionary of names and values, or in a list of texts.
 std::vector<std::string> assignments(const py::object& settings);
+
+/// Makes a class whose objects have get(), set() and names() a mapping of parameters.
+template <class Class>
+void add_mapping(Class& type) {
+    using Self = typename Class::type;
+    type.def("__getitem__", &Self::get)
+        .def("__setitem__", [](const Self& self, const std::string& name,
+                               const py::object& value) { self.set(name, value); })
+        .def("__contains__",
+             [](const Self& self, const py::object& name) {
+                 return py::list(py::cast(self.names())).contains(name);
+             })
+        .def("__iter__", [](const Self& self) { return py::iter(py::cast(self.names())); })
+        .def("__len__", [](const Self& self) { return self.names().size(); })
+        .def("keys", &Self::names, "The names of all parameters.")
+        .def("_repr_html_", html("parameters"));
+}
 
 /// The shape of an array with one number per cell: (rows, columns), or (cells,) of a sparse group.
 std::vector<py::ssize_t> shape_of(const GroupShape& group);

@@ -12,6 +12,10 @@ namespace {
 using namespace py::literals;
 
 constexpr const char* directions[] = {"receptive", "projective", nullptr};
+/// The constructors, in the order of the variants of the model.
+constexpr const char* patterns[] = {"mapped", "foreach", "tuples"};
+constexpr const char* shapes[] = {"rect", "ellipse", "rect_window", "ellipse_window", "all", "random"};
+constexpr const char* functions[] = {"uniform", "linear", "gaussian", "block", "random"};
 
 /// Python's text of a value.
 std::string repr_of(const py::handle& value) { return py::repr(value).cast<std::string>(); }
@@ -48,11 +52,6 @@ PythonPattern tuples(const std::vector<std::pair<py::iterable, py::iterable>>& p
     return {std::move(out)};
 }
 
-const char* kind_of(const model::Pattern& p) {
-    constexpr const char* names[] = {"mapped", "foreach", "tuples"};
-    return names[p.index()];
-}
-
 /// The cells at one end of a pattern; a list per tuple of a pattern of tuples.
 py::object cells(const model::Pattern& pattern, bool source) {
     if (const auto* tuples = std::get_if<model::TuplesPattern>(&pattern)) {
@@ -81,7 +80,7 @@ std::string repr(const PythonPattern& self) {
         const auto* mapped = std::get_if<model::MappedPattern>(&pattern);
         if (mapped && mapped->all) arguments.emplace_back("all=True");
     }
-    return fmt::format("forage.Pattern.{}({})", kind_of(pattern), fmt::join(arguments, ", "));
+    return fmt::format("forage.Pattern.{}({})", patterns[pattern.index()], fmt::join(arguments, ", "));
 }
 
 template <class Shape>
@@ -99,62 +98,43 @@ model::Arborization window(std::pair<int, int> inner, std::pair<int, int> outer,
     return arborization(Shape{inner.first, inner.second, outer.first, outer.second}, direction, probability);
 }
 
-/// The name of its constructor and the arguments.
-std::pair<std::string, std::string> parts(const model::RectArbor& s) {
-    return {"rect", fmt::format("{}, {}", s.width, s.height)};
-}
-std::pair<std::string, std::string> parts(const model::EllipseArbor& s) {
-    return {"ellipse", fmt::format("{}, {}", s.width, s.height)};
+/// The arguments of a constructor.
+template <class Rectangle>
+std::string arguments(const Rectangle& s) {
+    return fmt::format("{}, {}", s.width, s.height);
 }
 template <class Window>
-std::string extents(const Window& s) {
+requires requires(Window s) { s.inner_width; }
+std::string arguments(const Window& s) {
     return fmt::format("({}, {}), ({}, {})", s.inner_width, s.inner_height, s.outer_width, s.outer_height);
 }
-std::pair<std::string, std::string> parts(const model::RectWindowArbor& s) {
-    return {"rect_window", extents(s)};
+std::string arguments(const model::AllArbor&) { return {}; }
+std::string arguments(const model::RandomArbor& s) { return fmt::format("{}", s.count); }
+std::string arguments(const model::UniformFunction& f) { return fmt::format("{}", f.value); }
+std::string arguments(const model::LinearFunction& f) { return fmt::format("{}, {}", f.min, f.max); }
+std::string arguments(const model::GaussianFunction& f) {
+    return fmt::format("{}, {}, {}", f.min, f.max, f.sigma);
 }
-std::pair<std::string, std::string> parts(const model::EllipseWindowArbor& s) {
-    return {"ellipse_window", extents(s)};
+std::string arguments(const model::BlockFunction& f) {
+    return fmt::format("{}, {}, {}, {}", f.min, f.max, f.width, f.height);
 }
-std::pair<std::string, std::string> parts(const model::AllArbor&) { return {"all", ""}; }
-std::pair<std::string, std::string> parts(const model::RandomArbor& s) {
-    return {"random", fmt::format("{}", s.count)};
-}
-
-std::pair<std::string, std::string> parts(const model::UniformFunction& f) {
-    return {"uniform", fmt::format("{}", f.value)};
-}
-std::pair<std::string, std::string> parts(const model::LinearFunction& f) {
-    return {"linear", fmt::format("{}, {}", f.min, f.max)};
-}
-std::pair<std::string, std::string> parts(const model::GaussianFunction& f) {
-    return {"gaussian", fmt::format("{}, {}, {}", f.min, f.max, f.sigma)};
-}
-std::pair<std::string, std::string> parts(const model::BlockFunction& f) {
-    return {"block", fmt::format("{}, {}, {}, {}", f.min, f.max, f.width, f.height)};
-}
-std::pair<std::string, std::string> parts(const model::RandomFunction& f) {
-    return {"random", fmt::format("{}", f.max)};
-}
+std::string arguments(const model::RandomFunction& f) { return fmt::format("{}", f.max); }
 
 template <class Variant>
-std::pair<std::string, std::string> parts_of(const Variant& v) {
-    return std::visit([](const auto& form) { return parts(form); }, v);
+std::string arguments_of(const Variant& variant) {
+    return std::visit([](const auto& form) { return arguments(form); }, variant);
 }
 
 std::string repr(const model::Arborization& a) {
-    auto [name, arguments] = parts_of(a.shape);
-    const auto add = [&arguments = arguments](const std::string& more) {
-        arguments += (arguments.empty() ? "" : ", ") + more;
-    };
+    std::string text = arguments_of(a.shape);
+    const auto add = [&](const std::string& more) { text += (text.empty() ? "" : ", ") + more; };
     if (a.direction == model::Direction::projective) add("direction='projective'");
     if (a.probability != 1) add(fmt::format("probability={}", a.probability));
-    return fmt::format("forage.Arborization.{}({})", name, arguments);
+    return fmt::format("forage.Arborization.{}({})", shapes[a.shape.index()], text);
 }
 
 std::string repr(const model::DistanceFunction& f) {
-    const auto [name, arguments] = parts_of(f.form);
-    return fmt::format("forage.DistanceFunction.{}({})", name, arguments);
+    return fmt::format("forage.DistanceFunction.{}({})", functions[f.form.index()], arguments_of(f.form));
 }
 
 /// Values never change and are compared by their content.
@@ -185,7 +165,7 @@ all: whether a cell is paired with every cell under its projection, not only wit
         .def_static("tuples", &tuples, "pairs"_a,
                     "Pairs each cell of a list with each cell of another: tuples([(sources, targets), ...]).")
         .def_property_readonly(
-            "kind", [](const PythonPattern& self) { return kind_of(self.value); },
+            "kind", [](const PythonPattern& self) { return patterns[self.value.index()]; },
             R"("mapped", "foreach" or "tuples".)")
         .def_property_readonly(
             "source", [](const PythonPattern& self) { return cells(self.value, true); },
@@ -227,7 +207,7 @@ Arborizations never change, and are equal when they say the same.)");
         },
         "This many distinct cells of the group, drawn for each pair.", "count"_a);
     type.def_property_readonly(
-            "kind", [](const model::Arborization& self) { return parts_of(self.shape).first; },
+            "kind", [](const model::Arborization& self) { return shapes[self.shape.index()]; },
             "The name of the function that made it.")
         .def_property_readonly(
             "direction",
@@ -261,7 +241,7 @@ A number does for the same value everywhere. Functions never change, and are equ
         .def_static("random", &function<model::RandomFunction, double>, "max"_a,
                     "A random number from 0 to max for each synapse.")
         .def_property_readonly(
-            "kind", [](const model::DistanceFunction& self) { return parts_of(self.form).first; },
+            "kind", [](const model::DistanceFunction& self) { return functions[self.form.index()]; },
             "The name of the function that made it.");
     add_value(type);
 }

@@ -84,48 +84,29 @@ def experiment(file: Path, *, directory: Path | None = None, plugins: typing.Ite
     are not finished.
     """
     folder = os.fspath(directory) if directory is not None else f"forage-out/{pathlib.Path(file).stem}"
+    description = {"file": os.fspath(file), "plugins": [os.fspath(p) for p in plugins]}
     if executor is not None:
-        work = _FileParts(os.path.abspath(file), os.path.abspath(folder), [os.path.abspath(p) for p in plugins], fresh)
-        _execute(executor, operator.index(parts), _reporter(progress), work)
-        file, fresh = os.path.abspath(file), False
-    return _table(_forage._experiment(os.fspath(file), folder, [os.fspath(p) for p in plugins], jobs, fresh, _reporter(progress)), folder)
+        description = {"file": os.path.abspath(file), "plugins": [os.path.abspath(p) for p in plugins]}
+        _execute(executor, operator.index(parts), _reporter(progress), _Parts(description, os.path.abspath(folder), fresh))
+        fresh = False
+    return _table(_forage._Experiment(**description).run(folder, jobs, fresh, _reporter(progress)), folder)
 
 
-class _FileParts(typing.NamedTuple):
-    """The parts of an experiment file. It can be sent to workers, as functions of C++ cannot."""
-
-    file: str
-    folder: str
-    plugins: list[str]
-    fresh: bool
-
-    def part(self, number: int, of: int) -> None:
-        _forage._experiment_part(self.file, self.folder, self.plugins, self.fresh, number, of)
-
-    def missing(self) -> tuple[int, int]:
-        return _forage._experiment_missing(self.file, self.folder, self.plugins)
-
-    def next_round(self) -> _FileParts:
-        return self._replace(fresh=False)
-
-
-class _SweepParts(typing.NamedTuple):
-    """The parts of a sweep, of which only its description can be sent to workers."""
+class _Parts(typing.NamedTuple):
+    """The parts of an experiment, of which only its description can be sent to workers."""
 
     description: dict[str, typing.Any]
     folder: str
+    fresh: bool
 
     def part(self, number: int, of: int) -> None:
-        _forage._Sweep(**self.description).part(self.folder, number, of)
+        _forage._Experiment(**self.description).part(self.folder, self.fresh, number, of)
 
     def missing(self) -> tuple[int, int]:
-        return _forage._Sweep(**self.description).missing(self.folder)
-
-    def next_round(self) -> _SweepParts:
-        return self
+        return _forage._Experiment(**self.description).missing(self.folder)
 
 
-def _execute(executor: typing.Any, parts: int, report: typing.Callable[[float, str], object] | None, work: _FileParts | _SweepParts) -> None:
+def _execute(executor: typing.Any, parts: int, report: typing.Callable[[float, str], object] | None, work: _Parts) -> None:
     """Executes all parts of an experiment with an executor, round by round."""
     if hasattr(executor, "get_executor"):  # a client of Dask; its results must not be those of an earlier call
         executor = executor.get_executor(pure=False)
@@ -143,7 +124,7 @@ def _execute(executor: typing.Any, parts: int, report: typing.Callable[[float, s
         left = work.missing()
         if left[1] == 0 or left == before:  # what workers do not leave in the folder is executed here
             return
-        before, parts, work = left, min(parts, left[1]), work.next_round()
+        before, parts, work = left, min(parts, left[1]), work._replace(fresh=False)
 
 
 def sweep(system: Path | _forage.System, world: Path | None = None, values: Values | None = None, *, seeds: int | typing.Iterable[int] = 1,
@@ -199,14 +180,14 @@ def sweep(system: Path | _forage.System, world: Path | None = None, values: Valu
         if executor is not None:
             file, world, folder = os.path.abspath(file), world and os.path.abspath(world), os.path.abspath(folder)
             setup["plugins"] = [os.path.abspath(p) for p in setup["plugins"]]
-        description = dict(system=file, world=world, values=listed, seeds=_seeds(seeds), settings=_settings(settings), measures=declared, until=until,
+        description = dict(system=os.fspath(file), world="" if world is None else os.fspath(world), values=listed, seeds=_seeds(seeds), settings=_settings(settings), measures=declared, until=until,
                            adaptations=adaptations, **length, **setup)
-        planned = _forage._Sweep(**description)
+        planned = _forage._Experiment(**description)
         if executor is not None:
             planned.missing(folder)  # tells all mistakes before anything is sent
-            _execute(executor, operator.index(parts), _reporter(progress), _SweepParts(description, folder))
+            _execute(executor, operator.index(parts), _reporter(progress), _Parts(description, folder, False))
         if not functions:
-            return _table(planned.run(folder, jobs, _reporter(progress)), None if directory is None else folder)
+            return _table(planned.run(folder, jobs, False, _reporter(progress)), None if directory is None else folder)
         names = [name for key in values or {} for name in (key if isinstance(key, tuple) else [key])]
         runs = planned.plan()
         alone = cycles is None and seconds is None and trials is None and not until
@@ -314,7 +295,7 @@ class _Work:
 
 
 def _columns(names: list[str], runs: list[typing.Any], results: list[dict[str, typing.Any]]) -> list[tuple[str, list[typing.Any]]]:
-    """What _Sweep.run() returns, of the results of functions."""
+    """What _Experiment.run() returns, of the results of functions."""
     columns: list[tuple[str, list[typing.Any]]] = [("run", [run[0] for run in runs])]
     columns += [(name, [run[1][i] for run in runs]) for i, name in enumerate(names)]
     columns += [("seed", [run[2] for run in runs])]

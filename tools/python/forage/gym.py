@@ -59,22 +59,18 @@ def _agent(robot: str, system: typing.Any, sensors: typing.Any, motors: typing.A
     return (robot, _ports("target" if sensors is None else sensors), _ports("motor" if motors is None else motors), expression)
 
 
-def _task(world: typing.Any, system: typing.Any, agents: typing.Any, options: typing.Any, every_robot: bool = False) -> _forage.AgentTask:
+def _task(world: typing.Any, system: typing.Any, agents: typing.Any, options: typing.Any, every_robot: bool = False) -> dict[str, typing.Any]:
     usual: dict[str, typing.Any] = {"action": "cell", "cycles_per_step": 5, "max_steps": 1000, "end_at_target": True, "speed": (1.0, 1.5), "seed": 1,
              "settings": None, "plugins": (), "noise": True, "real_time_factor": None, "paths": False}
     unknown = set(options) - set(usual)
     if unknown:
         raise TypeError(f"unknown options: {', '.join(sorted(unknown))}; there are {', '.join(usual)}")
-    return _forage.AgentTask(world=world, system=system, agents=agents, every_robot=every_robot, **{**usual, **options})
+    return {"world": world, "system": system, "agents": agents, "every_robot": every_robot, **usual, **options}
 
 
 def _observation_space(sensors: typing.Any) -> typing.Any:
-    low, high = [], []
-    for _, shape, unit_range in sensors:
-        n = int(numpy.prod(shape))
-        low += [0.0 if unit_range else -numpy.inf] * n
-        high += [1.0 if unit_range else numpy.inf] * n
-    return spaces.Box(numpy.array(low, numpy.float32), numpy.array(high, numpy.float32), dtype=numpy.float32)
+    high = numpy.concatenate([numpy.full(shape, 1 if unit_range else numpy.inf, numpy.float32).ravel() for _, shape, unit_range in sensors])
+    return spaces.Box(numpy.where(high == 1, numpy.float32(0), -high), high, dtype=numpy.float32)
 
 
 def _action_space(motors: typing.Any, action: typing.Any) -> typing.Any:
@@ -82,9 +78,7 @@ def _action_space(motors: typing.Any, action: typing.Any) -> typing.Any:
     if action == "cell":
         choices = [max(n, 2) for n in cells]
         return spaces.Discrete(choices[0]) if len(choices) == 1 else spaces.MultiDiscrete(choices)
-    low = []
-    for n in cells:
-        low += [-1.0] * 2 if action == "velocity" and n > 1 else [0.0] * (1 if action == "velocity" else n)
+    low = [x for n in cells for x in ([0.0] * n if action == "activity" else [-1.0] * 2 if n > 1 else [0.0])]
     return spaces.Box(numpy.array(low, numpy.float32), numpy.ones(len(low), numpy.float32), dtype=numpy.float32)
 
 
@@ -102,11 +96,11 @@ class _Rendered:
     _agents: _forage.AgentRun | None = None
     _figure: typing.Any = None
 
-    def _open(self, task: typing.Any, render_mode: str | None) -> None:
+    def _open(self, task: dict[str, typing.Any], render_mode: str | None) -> None:
         if render_mode not in (None, *_render_modes):
             raise InputError(f"'{render_mode}' is not a way to render; there are {', '.join(_render_modes)}, and None")
         self.render_mode = render_mode
-        self._agents = _forage.AgentRun(task)
+        self._agents = _forage.AgentRun(**task)
 
     @property
     def _use(self) -> _forage.AgentRun:
@@ -224,12 +218,8 @@ class BugEnv(_Rendered, Env):  # type: ignore[misc]
 
     def split(self, observation: typing.Any) -> dict[str, typing.Any]:
         """The sensors in an observation: a dictionary of arrays with the shapes of their groups."""
-        out, first = {}, 0
-        for name, shape, _ in self.sensors:
-            n = int(numpy.prod(shape))
-            out[name] = observation[first:first + n].reshape(shape)
-            first += n
-        return out
+        ends = numpy.cumsum([numpy.prod(shape) for _, shape, _ in self.sensors])
+        return {name: part.reshape(shape) for (name, shape, _), part in zip(self.sensors, numpy.split(observation, ends[:-1]))}
 
 
 class BugParallelEnv(_Rendered, ParallelEnv):  # type: ignore[misc]
@@ -318,7 +308,7 @@ class BugVectorEnv(VectorEnv):  # type: ignore[misc]
         task = _task(world, system, [_agent(robot, system, sensors, motors, reward)], options)
         self.num_envs = num_envs
         self.render_mode = None
-        self._pool = _forage.AgentPool(task, num_envs, threads)
+        self._pool = _forage.AgentPool(num_envs, threads, **task)
         self.sensors = self._pool.sensors()
         self.single_observation_space = _observation_space(self.sensors)
         self.single_action_space = _action_space(self._pool.motors(), options.get("action", "cell"))
