@@ -8,11 +8,14 @@
     print(light.to_pandas())
 """
 
+from . import _forage
 from ._errors import Diagnostic, InputError, InputWarning, RunError
-from ._forage import (Arborization, DistanceFunction, Film, Group, Manipulation, Parameters, Pattern, Probe, Run, System, __version__, edit_file,
-                      open, resume)
+from ._forage import (Arborization, DistanceFunction, Film, Group, Manipulation, Parameters, Pattern, Probe, Run, System, edit_file, open,
+                      resume)
 from ._picture import Picture
 from ._recording import Recording
+
+__version__ = _forage.__version__
 
 # Imported when they are used, as they need NumPy, so that the import of the package takes little time.
 _EXPERIMENT = ("Table", "experiment", "sweep")

@@ -48,25 +48,6 @@ class Box(Space):
         return f"Box({low}, {high}, {self.shape}, {self.dtype})"
 
 
-class Discrete(Space):
-    """The integers 0 to n - 1."""
-
-    def __init__(self, n, seed=None):
-        super().__init__((), numpy.int64, seed)
-        self.n = int(n)
-
-    def sample(self):
-        """One of the integers."""
-        return numpy.int64(self.np_random.integers(self.n))
-
-    def contains(self, x):
-        """Whether x is one of the integers."""
-        return numpy.shape(x) == () and numpy.issubdtype(numpy.asarray(x).dtype, numpy.integer) and 0 <= x < self.n
-
-    def __repr__(self):
-        return f"Discrete({self.n})"
-
-
 class MultiDiscrete(Space):
     """Arrays of integers, each from 0 to one less than its number in nvec."""
 
@@ -85,14 +66,22 @@ class MultiDiscrete(Space):
         return bool(fits and (x >= 0).all() and (x < self.nvec).all())
 
     def __repr__(self):
-        return f"MultiDiscrete({self.nvec.tolist()})"
+        return f"{type(self).__name__}({self.nvec.tolist()})"
+
+
+class Discrete(MultiDiscrete):
+    """The integers 0 to n - 1."""
+
+    def __init__(self, n, seed=None):
+        super().__init__(int(n), seed)
+        self.n = int(n)
 
 
 def batch_space(space, n):
     """The space of n values of a space side by side."""
     if isinstance(space, Box):
         return Box(numpy.stack([space.low] * n), numpy.stack([space.high] * n), dtype=space.dtype)
-    return MultiDiscrete(numpy.stack([space.nvec if isinstance(space, MultiDiscrete) else space.n] * n))
+    return MultiDiscrete(numpy.stack([space.nvec] * n))
 
 
 class Env:

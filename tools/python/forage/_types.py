@@ -128,15 +128,16 @@ class _Columns:
 
     size: int
 
+    def _names(self, writable: bool) -> str:
+        return ", ".join(n for n, c in self.__dict__.items() if isinstance(c, numpy.ndarray) and (c.flags.writeable or not writable))
+
     def __getattr__(self, name: str) -> _Column:
-        there = ", ".join(n for n, c in self.__dict__.items() if isinstance(c, numpy.ndarray))
-        raise AttributeError(f"there is no column '{name}'; there is {there}")
+        raise AttributeError(f"there is no column '{name}'; there is {self._names(False)}")
 
     def __setattr__(self, name: str, value: numpy.typing.ArrayLike) -> None:
         column = self.__dict__.get(name)
         if not isinstance(column, numpy.ndarray):
-            there = ", ".join(n for n, c in self.__dict__.items() if isinstance(c, numpy.ndarray) and c.flags.writeable)
-            raise AttributeError(f"there is no state '{name}' to write; there is {there or 'none'}; {name} = forage.state(0.0) in the class declares it")
+            raise AttributeError(f"there is no state '{name}' to write; there is {self._names(True) or 'none'}; {name} = forage.state(0.0) in the class declares it")
         if value is not column:
             _assign(column, value, name)
 
@@ -163,6 +164,7 @@ class Cells(_Columns):
     inh: _Column
     mod: _Column
     cycle: int
+    _draws: _forage._Draws
 
     def __init__(self, columns: dict[str, _Column], size: int, draws: typing.Any, cycle: int) -> None:
         super().__init__(columns, size)
@@ -173,15 +175,15 @@ class Cells(_Columns):
 
         Another `draw`, from 0, gives other, independent numbers. Draws 0 to 3 are `Input::random` in C++. Raises RunError after the call of update().
         """
-        return typing.cast(_Column, self.__dict__["_draws"].uniform(draw))
+        return self._draws.uniform(draw)
 
     def normal(self, draw: int = 0) -> _Column:
         """One number per cell with the normal distribution of mean 0 and standard deviation 1: forage::normal() of draws `draw` and `draw` + 1."""
-        return typing.cast(_Column, self.__dict__["_draws"].normal(draw))
+        return self._draws.normal(draw)
 
     def events(self, probability: float, draw: int = 0) -> _Column:
         """1 in each cell with this probability, else 0. Draw 0 is `Input::event` in C++."""
-        return typing.cast(_Column, self.__dict__["_draws"].events(probability, draw))
+        return self._draws.events(probability, draw)
 
 
 class Synapses(_Columns):
@@ -207,12 +209,15 @@ class Ports:
         self.__dict__.update(inputs, _shapes=shapes, _draws=draws, _written={}, cycle=cycle)
 
     cycle: int
+    _shapes: dict[str, tuple[int, ...]]
+    _draws: _forage._Draws
+    _written: dict[str, _Column]
 
     def __getattr__(self, name: str) -> _Column:
-        shape = self.__dict__["_shapes"].get(name)
+        shape = self._shapes.get(name)
         if shape is None:
             raise AttributeError(f"the module has no port '{name}'; {name} = forage.output() in the class declares one")
-        return typing.cast(_Column, self.__dict__["_written"].setdefault(name, numpy.zeros(shape)))
+        return self._written.setdefault(name, numpy.zeros(shape))
 
     def __setattr__(self, name: str, value: numpy.typing.ArrayLike) -> None:
         if name in self.__dict__:
@@ -223,7 +228,7 @@ class Ports:
 
     def random(self, size: int = 1, draw: int = 0) -> _Column:
         """An array of shape (size,) with numbers that are uniform in [0, 1), new in each cycle. It depends on the seed of the run only."""
-        return typing.cast(_Column, self.__dict__["_draws"].uniform_numbers(size, draw))
+        return self._draws.uniform_numbers(size, draw)
 
 
 # The decorators
@@ -322,12 +327,12 @@ class _Declared:
         if hasattr(made, "start"):
             made.start(ports)
         made.__dict__["_forage_started"] = True
-        return typing.cast("dict[str, _Column]", ports.__dict__["_written"])
+        return ports._written
 
     def update_module(self, made: typing.Any, inputs: dict[str, _Column], shapes: dict[str, tuple[int, ...]], draws: typing.Any, cycle: int) -> dict[str, _Column]:
         ports = Ports(inputs, shapes, draws, cycle)
         made.update(ports)
-        return typing.cast("dict[str, _Column]", ports.__dict__["_written"])
+        return ports._written
 
     def kept_bytes(self, made: typing.Any) -> bytes:
         out = io.BytesIO()
