@@ -37,7 +37,7 @@ std::string kind_of(std::string_view text, const Entry& e) {
     if (has_plugin(body, "libtarget_plugin.so")) return "resource";
     if (!all(body, "plane").empty()) return "floor";
     const auto* set = e.form == Entry::Form::include ? child(*e.element, "static") : nullptr;
-    if (set ? !says_yes(text, set) : !says_yes(e.body.text, child(body, "static"))) return "object";
+    if (set ? !is_true(text, set) : !is_true(e.body.text, child(body, "static"))) return "object";
     if (all(body, "collision").empty()) return "patch";
     return is_target(e.body) ? "light" : "wall";
 }

@@ -155,7 +155,7 @@ xml::Format make_format() {
     xml::Format out{.name = "a world or model file",
                     .beginning = "<sdf version=\"1.4\">",
                     .roots = {"sdf", "gazebo"},  // the name until version 1.2
-                    .most_nodes = 10'000,        // all worlds that ship have fewer
+                    .max_nodes = 10'000,         // all worlds that ship have fewer
                     .open = true,
                     .values = values()};
     for (const Row& row : rows) {
@@ -220,7 +220,7 @@ const xml::Format& trials_format() {
 
 const xml::Format& model_config_format() {
     static const xml::Format format{
-        .name = "a model's description", .beginning = "<model>", .roots = {"model"}, .most_nodes = 1000};
+        .name = "a model's description", .beginning = "<model>", .roots = {"model"}, .max_nodes = 1000};
     return format;
 }
 

@@ -62,7 +62,7 @@ std::string_view content(std::string_view text, const SourceElement* e) {
     return inside.substr(first, inside.find_last_not_of(blanks) + 1 - first);
 }
 
-bool says_yes(std::string_view text, const SourceElement* e) {
+bool is_true(std::string_view text, const SourceElement* e) {
     const auto value = content(text, e);
     return value == "true" || value == "1";
 }

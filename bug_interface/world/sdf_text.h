@@ -20,8 +20,8 @@ std::vector<const xml::SourceElement*> all(const xml::SourceElement& e, std::str
 
 /// The content of an element without the blanks around it; empty for null.
 std::string_view content(std::string_view text, const xml::SourceElement* e);
-/// Whether an element that holds a truth value is there and says yes.
-bool says_yes(std::string_view text, const xml::SourceElement* e);
+/// Whether there is an element and its value is true.
+bool is_true(std::string_view text, const xml::SourceElement* e);
 /// A value as it is meant: with characters instead of entities.
 std::string decoded(std::string_view text);
 /// The words of a list with the places at which they stand in the text.

@@ -47,7 +47,7 @@ Place place_of(std::string_view text, const WorldTree& tree, const SourceElement
 bool may_unpack(std::string_view text, const Entry& e) {
     if (!e.body.element) return false;
     return e.form == Entry::Form::include ||
-           (e.form == Entry::Form::model && says_yes(text, child(*e.element, "static")) &&
+           (e.form == Entry::Form::model && is_true(text, child(*e.element, "static")) &&
             is_divisible(e.body));
 }
 

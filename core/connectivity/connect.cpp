@@ -16,7 +16,7 @@ Synapses connect(const model::Connection& connection, const model::Topology& sou
     enum Stream : std::uint32_t { arbor_stream, attenuation_stream, delay_stream };
     for (const auto* topology : {&source_topology, &target_topology}) {
         const GroupShape size = model::shape(*topology);
-        if (static_cast<double>(size.width) * size.height > static_cast<double>(model::most_cells)) {
+        if (static_cast<double>(size.width) * size.height > static_cast<double>(model::max_extent)) {
             diagnostics.error(connection.at,
                               fmt::format("connection '{}' joins a group that is too large: {} x {} cells",
                                           connection.name, size.width, size.height));

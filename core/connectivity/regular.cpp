@@ -63,7 +63,7 @@ std::optional<Regular> regular(const model::Connection& c, const model::Topology
     const auto* spread = receptive ? source : target;
     const double source_cells = static_cast<double>(source->width) * source->height,
                  target_cells = static_cast<double>(target->width) * target->height;
-    const auto most = static_cast<double>(model::most_cells);
+    const auto most = static_cast<double>(model::max_extent);
     if (spread->wrap_x || spread->wrap_y || source_cells > most || target_cells > most) return {};
 
     Regular out;

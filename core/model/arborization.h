@@ -74,7 +74,7 @@ struct RandomFunction {
 
 /// The longest delay that is accepted, in cycles. A longer one is more likely a mistake, and costs memory for
 /// every cell and cycle.
-inline constexpr int most_delay = 100'000;
+inline constexpr int max_delay = 100'000;
 
 struct DistanceFunction {
     std::variant<UniformFunction, LinearFunction, GaussianFunction, BlockFunction, RandomFunction> form;

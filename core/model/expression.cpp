@@ -126,7 +126,7 @@ class Parser {
 
   private:
     // Conditions are read and evaluated recursively, so their depth is limited.
-    static constexpr std::size_t deepest = 100, most_parts = 1000, longest = 65536;
+    static constexpr std::size_t deepest = 100, max_parts = 1000, longest = 65536;
     using Operator = Condition::Operator;
     static constexpr std::array<std::pair<std::string_view, Quantity::Kind>, 3> words = {
         {{"cycle", Quantity::cycle}, {"trial", Quantity::trial}, {"seconds", Quantity::seconds}}};
@@ -218,8 +218,8 @@ class Parser {
     }
 
     std::size_t node(Operator op, std::size_t first, std::size_t second) {
-        if (condition_.nodes.size() >= most_parts)
-            fail(fmt::format("it has more than {} parts", most_parts), "", at_);
+        if (condition_.nodes.size() >= max_parts)
+            fail(fmt::format("it has more than {} parts", max_parts), "", at_);
         condition_.nodes.push_back({op, first, second});
         return condition_.nodes.size() - 1;
     }
@@ -507,7 +507,7 @@ namespace {
 constexpr std::array<std::string_view, 11> plots = {"time",    "space",      "movie",    "connection",
                                                     "diagram", "trajectory", "wiring",   "curve",
                                                     "heat",    "learning",   "occupancy"};
-constexpr int most_blocks = 1000;  // lines closer than a pixel
+constexpr int max_blocks = 1000;  // lines closer than a pixel
 
 /// "100", "0..500" or "0..500/10"; `what` they are: "cycle" or "trial"
 Plot::Cycles parse_cycles(std::string_view word, std::string_view what, std::string_view text) {
@@ -547,7 +547,7 @@ Plot parse_plot(std::string_view text) {
         const auto x = std::min(size.find('x'), size.size());
         const auto across = parse_number<int>(trim(size.substr(0, x))),
                    down = parse_number<int>(trim(size.substr(std::min(x + 1, size.size()))));
-        const auto sound = [](const std::optional<int>& n) { return n && *n >= 1 && *n <= most_blocks; };
+        const auto sound = [](const std::optional<int>& n) { return n && *n >= 1 && *n <= max_blocks; };
         if (!option.starts_with("blocks=") || !sound(across) || !sound(down))
             Parser::fail(fmt::format("'{}' is not an option of a plot", option), "such as ';blocks=9x1'",
                          offset(option, text));

@@ -64,8 +64,8 @@ class Merger {
                 if constexpr (!std::same_as<Struct, TypeUse>)  // cross references
                     member(where, m.label, base.*m.member, mine.*m.member, theirs.*m.member);
             });
-        } else if (!says_the_same(mine, base)) {
-            if (!says_the_same(theirs, base))
+        } else if (!is_same_use(mine, base)) {
+            if (!is_same_use(theirs, base))
                 conflicts_.push_back(fmt::format("the type of {} or its parameters", what));
             theirs = mine;
         }
@@ -73,7 +73,7 @@ class Merger {
     }
     /// Whether two uses have the same type, parameters and cross references, in any order.
     template <class Use>
-    static bool says_the_same(const Use& a, const Use& b) {
+    static bool is_same_use(const Use& a, const Use& b) {
         const auto content = [](Use use) {
             use.note.reset();
             each_member<Use>([&]<class S, class T>(const Member<S, T>& m) {

@@ -9,7 +9,7 @@ namespace forage::model {
 GroupShape shape(const Topology& topology) {
     if (const auto* rect = std::get_if<RectTopology>(&topology)) {
         const long long cells = static_cast<long long>(rect->width) * rect->height;
-        return {rect->width, rect->height, static_cast<int>(std::min(cells, most_cells))};
+        return {rect->width, rect->height, static_cast<int>(std::min(cells, max_extent))};
     }
     int min_x = std::numeric_limits<int>::max(), min_y = min_x, max_x = 0, max_y = 0;
     std::vector<std::pair<int, int>> places;  // each of them once, even when it is listed several times

@@ -89,10 +89,10 @@ using Topology = std::variant<RectTopology, SparseTopology>;
 
 /// The largest accepted extent of a group, which is width times height. The extent of a sparse group is that
 /// of the rectangle around its points.
-inline constexpr long long most_cells = 10'000'000;
+inline constexpr long long max_extent = 10'000'000;
 
 /// The width, height and number of cells of a group with this topology. The number of cells is valid only
-/// when the extent is at most `most_cells`; validate() refuses larger groups.
+/// when the extent is at most `max_extent`; validate() refuses larger groups.
 GroupShape shape(const Topology& topology);
 
 struct Group {

@@ -198,11 +198,11 @@ class Validator {
         if (size.width < 1 || size.height < 1)
             out_.error(group.at, fmt::format("group '{}' has no cells", group.name),
                        "width and height start at 1");
-        else if (static_cast<long long>(size.width) * size.height > most_cells)
+        else if (static_cast<long long>(size.width) * size.height > max_extent)
             out_.error(group.at,
                        fmt::format("group '{}' is too large: {} x {}", group.name, size.width, size.height),
                        fmt::format("{} have an extent of at most {} cells",
-                                   sparse ? "the points of a group" : "groups", most_cells));
+                                   sparse ? "the points of a group" : "groups", max_extent));
     }
 
     void check_module(const Process& process) {
@@ -380,9 +380,9 @@ class Validator {
         else
             bounds = {std::get<RandomFunction>(f.form).max};
         for (const double v : bounds) {
-            if (v > most_delay)
+            if (v > max_delay)
                 out_.error(f.at, fmt::format("a delay of {} cycles is not possible", to_text(v)),
-                           fmt::format("delays are at most {} cycles", most_delay));
+                           fmt::format("delays are at most {} cycles", max_delay));
             else if (v < 0)
                 out_.warning(f.at, fmt::format("a delay cannot be negative: {}", to_text(v)),
                              "delays below 0 count as 0");

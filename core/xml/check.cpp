@@ -62,7 +62,7 @@ class Checker {
             return contents(e, *rule.rule);
         }
         const auto& exception = rule.value->exception;
-        const bool excepted = !exception.attribute.empty() && e[exception.attribute].view == exception.says;
+        const bool excepted = !exception.attribute.empty() && e[exception.attribute].view == exception.value;
         value(e.value(), {}, excepted ? format_.values.find(exception.rule)->second : *rule.value);
         if (rule.value->kind == ValueKind::any)
             attributes(e, *rule.rule);
@@ -89,7 +89,7 @@ class Checker {
         int chosen = 0;
         bool unknown_children = false;
         for (const Element& child : e.children()) {
-            if (out_.errors() >= most_errors) {
+            if (out_.errors() >= max_errors) {
                 sound_ = false;
                 return;
             }
@@ -244,7 +244,7 @@ class Checker {
         return true;
     }
 
-    static constexpr int most_errors = 100'000;  // further ones would not be printed
+    static constexpr int max_errors = 100'000;  // further ones would not be printed
 
     const Format& format_;
     Diagnostics& out_;
@@ -275,7 +275,7 @@ std::unique_ptr<const Document> open(const std::string& path, const Format& form
 
 std::unique_ptr<const Document> open(const std::string& path, std::string text, const Format& format,
                                      Diagnostics& diagnostics) {
-    auto document = Document::parse(path, std::move(text), format.beginning, format.most_nodes, diagnostics);
+    auto document = Document::parse(path, std::move(text), format.beginning, format.max_nodes, diagnostics);
     if (!document) return nullptr;
     const std::string_view name = document->root().name();
     if (std::ranges::find(format.roots, name) != format.roots.end()) return document;

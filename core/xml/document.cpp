@@ -160,7 +160,7 @@ Value Element::value(std::string_view path) const {
 // ---- documents ----
 
 std::unique_ptr<const Document> Document::parse(std::string path, std::string text,
-                                                std::string_view beginning, std::size_t most_nodes,
+                                                std::string_view beginning, std::size_t max_nodes,
                                                 Diagnostics& diagnostics) {
     auto document = std::make_unique<Document>();
     document->source = std::make_shared<SourceFile>(SourceFile{std::move(path), std::move(text)});
@@ -168,7 +168,7 @@ std::unique_ptr<const Document> Document::parse(std::string path, std::string te
     document->line_starts = {0};
     for (std::size_t i = 0; i < t.size(); ++i)
         if (t[i] == '\n') document->line_starts.push_back(i + 1);
-    const auto root = find_root(*document, beginning, most_nodes, diagnostics);
+    const auto root = find_root(*document, beginning, max_nodes, diagnostics);
     if (!root) return nullptr;
 
     document->xml = std::make_shared<tinyxml2::XMLDocument>();

@@ -106,10 +106,10 @@ struct Document {
 
     /// Parses `text`, which users know as the file `path`: XML 1.0 in UTF-8, without entities of its own,
     /// with elements nested at most 64 deep. Reports the first fault, if there is one, and returns null then.
-    /// `beginning` is the start tag of such a file, for hints ("<System ...>"); `most_nodes` limits its
+    /// `beginning` is the start tag of such a file, for hints ("<System ...>"); `max_nodes` limits its
     /// elements, attributes and comments.
     static std::unique_ptr<const Document> parse(std::string path, std::string text,
-                                                 std::string_view beginning, std::size_t most_nodes,
+                                                 std::string_view beginning, std::size_t max_nodes,
                                                  Diagnostics& diagnostics);
 
     Element root() const;

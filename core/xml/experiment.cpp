@@ -51,8 +51,8 @@ class ExperimentReader {
         if (const Element e = root.child("halving")) halving(e);
         model::check_adaptation(experiment_, out_);
         if (const Element e = root.child("exercise")) exercise(e);
-        if (count_runs() > most_runs)
-            out_.error(root.where(), fmt::format("these sweeps and seeds make more than {} runs", most_runs),
+        if (count_runs() > max_runs)
+            out_.error(root.where(), fmt::format("these sweeps and seeds make more than {} runs", max_runs),
                        "every value is combined with every value of the other sweeps, and with every seed");
         return std::move(experiment_);
     }
@@ -131,7 +131,7 @@ class ExperimentReader {
         experiment_.seeds.clear();
         const std::uint64_t count = whole(e["count"]).value_or(1);
         if (!listed)
-            for (std::uint64_t i = 0; i < std::min(count, most_runs + 1); ++i)
+            for (std::uint64_t i = 0; i < std::min(count, max_runs + 1); ++i)
                 experiment_.seeds.push_back(whole(e["first"]).value_or(1) + i);
         const auto list = expressions(e["list"]);
         if (listed && list.empty())
@@ -299,17 +299,17 @@ class ExperimentReader {
         return out;
     }
 
-    /// The number of runs, at most `most_runs` + 1.
+    /// The number of runs, at most `max_runs` + 1.
     std::uint64_t count_runs() const {
         std::uint64_t out = experiment_.seeds.size();
         const auto& a = experiment_.adaptation;
         if (a && a->kind == model::Adaptation::Kind::confidence) out = std::max(out, a->most);
         for (std::size_t axis = 0; const auto& s : experiment_.sweeps)
-            if (s.axis == axis) out = std::min(out * s.values.size(), most_runs + 1), ++axis;
+            if (s.axis == axis) out = std::min(out * s.values.size(), max_runs + 1), ++axis;
         return out;
     }
 
-    static constexpr std::uint64_t most_runs = 100'000;
+    static constexpr std::uint64_t max_runs = 100'000;
 
     const Document& document_;
     Diagnostics& out_;

@@ -45,9 +45,9 @@ struct ValueRule {
     bool may_be_empty = false;        ///< whether an empty element counts as absent
     bool decisive = false;  ///< whether what depends on the value cannot be checked when it is wrong
 
-    /// Another rule, which holds in an element whose `attribute` has the value `says`.
+    /// Another rule, which holds in an element whose `attribute` has the value `value`.
     struct Exception {
-        std::string_view attribute, says;
+        std::string_view attribute, value;
         std::string_view rule;  ///< a key of Format::values
     };
     Exception exception = {};
@@ -94,7 +94,7 @@ struct Format {
     std::string_view name;                ///< with its article: "a system file"
     std::string_view beginning;           ///< the start tag of such a file: "<System ...>"
     std::vector<std::string_view> roots;  ///< names of the outermost element; the first one is in the table
-    std::size_t most_nodes = std::size_t{1} << 20;  ///< elements, attributes and comments of a file
+    std::size_t max_nodes = std::size_t{1} << 20;  ///< elements, attributes and comments of a file
     /// Whether other programs extend the format. Unknown elements then have no effect and give warnings, and
     /// unknown attributes are ignored.
     bool open = false;

@@ -16,12 +16,12 @@ namespace {
 /// Scans a text. A function that finds a fault reports it and returns false.
 class Scanner {
   public:
-    Scanner(const Document& document, std::string_view beginning, std::size_t most_nodes,
+    Scanner(const Document& document, std::string_view beginning, std::size_t max_nodes,
             Diagnostics& diagnostics)
         : document_(document),
           text_(document.source->text),
           beginning_(beginning),
-          most_nodes_(most_nodes),
+          max_nodes_(max_nodes),
           diagnostics_(diagnostics) {}
 
     std::optional<std::string_view> run() {
@@ -288,14 +288,14 @@ class Scanner {
     }
 
     bool counted(std::size_t where) {
-        return ++nodes_ <= most_nodes_ ||
+        return ++nodes_ <= max_nodes_ ||
                fail(where,
-                    fmt::format("the file has more than {} elements, attributes and comments", most_nodes_));
+                    fmt::format("the file has more than {} elements, attributes and comments", max_nodes_));
     }
 
     const Document& document_;
     std::string_view text_, beginning_;
-    std::size_t most_nodes_;
+    std::size_t max_nodes_;
     Diagnostics& diagnostics_;
     std::size_t pos_ = 0, nodes_ = 0;
     bool only_instructions_ =
@@ -307,8 +307,8 @@ class Scanner {
 }  // namespace
 
 std::optional<std::string_view> find_root(const Document& document, std::string_view beginning,
-                                          std::size_t most_nodes, Diagnostics& diagnostics) {
-    return Scanner(document, beginning, most_nodes, diagnostics).run();
+                                          std::size_t max_nodes, Diagnostics& diagnostics) {
+    return Scanner(document, beginning, max_nodes, diagnostics).run();
 }
 
 }  // namespace forage::xml

@@ -14,6 +14,6 @@ namespace forage::xml {
 /// returns nothing when the text is not what Document::parse() accepts. Only `source` and `line_starts` of
 /// the document are used.
 std::optional<std::string_view> find_root(const Document& document, std::string_view beginning,
-                                          std::size_t most_nodes, Diagnostics& diagnostics);
+                                          std::size_t max_nodes, Diagnostics& diagnostics);
 
 }  // namespace forage::xml

@@ -39,10 +39,10 @@ Population population_from(const json& pattern, const char* side) {
     if (form == "all") return All{};
     if (form == "list") return List{points_from(it->at("points")), {}};
     if (form == "region")
-        return Region{whole_from(it->at("x"), model::most_cells),
-                      whole_from(it->at("y"), model::most_cells),
-                      whole_from(it->at("width"), model::most_cells),
-                      whole_from(it->at("height"), model::most_cells),
+        return Region{whole_from(it->at("x"), model::max_extent),
+                      whole_from(it->at("y"), model::max_extent),
+                      whole_from(it->at("width"), model::max_extent),
+                      whole_from(it->at("height"), model::max_extent),
                       {}};
     no_form("a population", form);
 }
@@ -76,7 +76,7 @@ void read_values(const json& values, Struct& s) {
         std::visit(
             [&]<class T>(T Struct::*member) {
                 if constexpr (std::is_same_v<T, int>)
-                    s.*member = whole_from(*it, model::most_cells);
+                    s.*member = whole_from(*it, model::max_extent);
                 else if constexpr (!std::is_enum_v<T>)
                     it->get_to(s.*member);
                 else if (const auto c = std::ranges::find(choices, it->template get<std::string>());
@@ -185,8 +185,8 @@ json json_of(const Topology& topology) {
 Topology topology_from(const json& form) {
     const auto points = form.find("points");
     if (points != form.end() && !points->empty()) return SparseTopology{points_from(*points)};
-    return RectTopology{whole_from(form.at("width"), model::most_cells),
-                        whole_from(form.at("height"), model::most_cells), form.value("wrap_x", false),
+    return RectTopology{whole_from(form.at("width"), model::max_extent),
+                        whole_from(form.at("height"), model::max_extent), form.value("wrap_x", false),
                         form.value("wrap_y", false)};
 }
 

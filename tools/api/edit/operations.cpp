@@ -190,7 +190,7 @@ const std::vector<Operation<SystemEdit>>& system_operations() {
         const auto placed = [](const char* name) { return optional(name, number()); };
         const auto size = [](const char* name) { return optional(name, number(1)); };
         const auto cells = [](const char* name, json otherwise = json(json::value_t::discarded)) {
-            return Member{name, whole(1, model::most_cells), {}, std::move(otherwise)};
+            return Member{name, whole(1, model::max_extent), {}, std::move(otherwise)};
         };
         const auto with = [](std::vector<Member> first, const std::vector<Member>& more) {
             first.insert(first.end(), more.begin(), more.end());
@@ -277,8 +277,8 @@ const std::vector<Operation<SystemEdit>>& system_operations() {
              &SystemEdit::parameter},
             {"topology",
              "Makes a group a rectangle, or a group of single cells.",
-             {id, optional("width", whole(1, model::most_cells)),
-              optional("height", whole(1, model::most_cells)), optional("wrap_x", boolean(), false),
+             {id, optional("width", whole(1, model::max_extent)),
+              optional("height", whole(1, model::max_extent)), optional("wrap_x", boolean(), false),
               optional("wrap_y", boolean(), false),
               optional("points", points, nullptr, "`[[x, y], ...]` of single cells")},
              &SystemEdit::topology},
