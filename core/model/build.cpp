@@ -39,15 +39,57 @@ std::string claim(const System& system, std::string id, const std::string& prefe
     return id;
 }
 
-void forget_groups(System& system, const std::set<std::string, std::less<>>& ids) {
+using IdSet = std::set<std::string, std::less<>>;
+
+IdSet group_ids(const Process& p) {
+    IdSet out;
+    for (const auto& g : p.groups) out.insert(g.id);
+    return out;
+}
+
+/// Unsets the cross references of a module to groups that are not to be kept.
+template <class Keep>
+void keep_references(Process& p, Keep keep) {
+    if (!p.module) return;
+    for (auto* references : {&p.module->inputs, &p.module->outputs})
+        for (auto& r : *references)
+            if (!keep(r.target)) r.target.clear();
+}
+
+void forget_groups(System& system, const IdSet& ids) {
     std::erase_if(system.connections,
                   [&](const Connection& c) { return ids.contains(c.source) || ids.contains(c.target); });
-    for (auto& p : system.processes) {
-        if (!p.module) continue;
-        for (auto* references : {&p.module->inputs, &p.module->outputs})
-            for (auto& r : *references)
-                if (ids.contains(r.target)) r.target.clear();
+    for (auto& p : system.processes)
+        keep_references(p, [&](const std::string& target) { return !ids.contains(target); });
+}
+
+/// Gives the ids of items, and all references to groups, the first prefix with which no id is in `system`:
+/// `prefix`, or `further` with a number from 2. Returns it.
+std::string add_prefix(const System& system, std::string prefix, std::string_view further,
+                       std::span<Process> processes, std::span<Connection> connections,
+                       std::span<CanvasComment> comments) {
+    std::vector<std::string*> ids, references;
+    for (auto& p : processes) {
+        ids.push_back(&p.id);
+        for (auto& g : p.groups) ids.push_back(&g.id);
+        for (auto& c : p.canvas_comments) ids.push_back(&c.id);
+        for (auto& f : p.phantoms) references.push_back(&f.group);
+        if (p.module)
+            for (auto* side : {&p.module->inputs, &p.module->outputs})
+                for (auto& r : *side) references.push_back(&r.target);
     }
+    for (auto& c : connections)
+        ids.push_back(&c.id), references.push_back(&c.source), references.push_back(&c.target);
+    for (auto& c : comments) ids.push_back(&c.id);
+    const auto taken = all_ids(system);
+    const auto clashes = [&] {
+        return std::ranges::any_of(ids, [&](const auto* id) { return taken.contains(prefix + *id); });
+    };
+    for (int n = 2; clashes(); ++n) prefix = fmt::format(fmt::runtime(further), n);
+    for (auto* id : ids) *id = prefix + *id;
+    for (auto* reference : references)
+        if (!reference->empty()) *reference = prefix + *reference;
+    return prefix;
 }
 
 /// Throws for a linked process: its content is in its own file, so changes would be lost.
@@ -167,52 +209,32 @@ void remove(System& system, std::string_view id) {
         }
         if (find_in(p.groups, id)) {
             refuse_linked(p);
-            forget_groups(system, {std::string(id)});
+            forget_groups(system, IdSet{std::string(id)});
             std::erase_if(p.groups, is_it);
             return forget_phantoms(system);
         }
     }
     const Process* process = find_process(system, id);
     if (!process) no_item("process, group, connection or comment", id);
-    std::set<std::string, std::less<>> groups;
-    for (const auto& g : process->groups) groups.insert(g.id);
-    forget_groups(system, groups);
+    forget_groups(system, group_ids(*process));
     std::erase_if(system.processes, is_it);
     forget_phantoms(system);
 }
 
 std::string make_ids_unique(const System& system, std::span<Process> processes,
                             std::span<Connection> connections) {
-    const auto taken = all_ids(system);
-    std::vector<std::string*> ids;
-    std::set<std::string, std::less<>> groups;
-    for (auto& p : processes) {
-        ids.push_back(&p.id);
-        for (auto& g : p.groups) ids.push_back(&g.id), groups.insert(g.id);
-        for (auto& c : p.canvas_comments) ids.push_back(&c.id);
-    }
-    for (auto& c : connections) ids.push_back(&c.id);
-    std::string prefix;
-    const auto clashes = [&] {
-        return std::ranges::any_of(ids, [&](const auto* id) { return taken.contains(prefix + *id); });
-    };
-    for (int n = 1; prefix.empty() || clashes(); ++n) prefix = fmt::format("CB{}", n);
-    for (const auto& c : connections)
+    IdSet groups;
+    for (const auto& p : processes) groups.merge(group_ids(p));
+    for (auto& c : connections) {
         if (!groups.contains(c.source) || !groups.contains(c.target))
             throw std::invalid_argument(fmt::format("connection '{}' leads out of the process", c.name));
-    const auto follow = [&](std::string& reference) {
-        reference = groups.contains(reference) ? prefix + reference : std::string();
-    };
+        c.linked = false;
+    }
     for (auto& p : processes) {
         std::erase_if(p.phantoms, [&](const Phantom& f) { return !groups.contains(f.group); });
-        for (auto& f : p.phantoms) follow(f.group);
-        if (p.module)
-            for (auto* references : {&p.module->inputs, &p.module->outputs})
-                for (auto& r : *references) follow(r.target);
+        keep_references(p, [&](const std::string& target) { return groups.contains(target); });
     }
-    for (auto& c : connections) follow(c.source), follow(c.target), c.linked = false;
-    for (auto* id : ids) *id = prefix + *id;
-    return prefix;
+    return add_prefix(system, "CB1", "CB{}", processes, connections, {});
 }
 
 std::string import_process(System& system, ProcessFile file) {
@@ -226,30 +248,7 @@ std::string import_process(System& system, ProcessFile file) {
 
 void join(System& system, System other) {
     embed_links(other);
-    const auto taken = all_ids(system);
-    std::vector<std::string*> ids;
-    std::vector<std::string*> references;
-    for (auto& p : other.processes) {
-        ids.push_back(&p.id);
-        for (auto& g : p.groups) ids.push_back(&g.id);
-        for (auto& c : p.canvas_comments) ids.push_back(&c.id);
-        for (auto& f : p.phantoms) references.push_back(&f.group);
-        if (p.module)
-            for (auto* side : {&p.module->inputs, &p.module->outputs})
-                for (auto& r : *side) references.push_back(&r.target);
-    }
-    for (auto& c : other.connections)
-        ids.push_back(&c.id), references.push_back(&c.source), references.push_back(&c.target);
-    for (auto& c : other.canvas_comments) ids.push_back(&c.id);
-    std::string prefix;
-    const auto clashes = [&] {
-        return std::ranges::any_of(ids, [&](const auto* id) { return taken.contains(prefix + *id); });
-    };
-    for (int n = 2; clashes(); ++n) prefix = fmt::format("S{}_", n);
-    for (auto* id : ids) *id = prefix + *id;
-    for (auto* reference : references)
-        if (!reference->empty()) *reference = prefix + *reference;
-
+    add_prefix(system, "", "S{}_", other.processes, other.connections, other.canvas_comments);
     const auto named = [&](const std::string& name) {
         return std::ranges::any_of(system.processes,
                                    [&](const auto& p) { return trim(p.name) == trim(name); });
@@ -270,12 +269,8 @@ ProcessFile extract_process(const System& system, std::string_view id) {
     out.process.path.clear();
     out.process.placeholder.clear();
     out.process.phantoms.clear();
-    std::set<std::string, std::less<>> groups;
-    for (const auto& g : it->groups) groups.insert(g.id);
-    if (out.process.module)
-        for (auto* references : {&out.process.module->inputs, &out.process.module->outputs})
-            for (auto& r : *references)
-                if (!groups.contains(r.target)) r.target.clear();
+    const auto groups = group_ids(*it);
+    keep_references(out.process, [&](const std::string& target) { return groups.contains(target); });
     for (const auto& c : system.connections)
         if (groups.contains(c.source) && groups.contains(c.target)) {
             out.connections.push_back(c);

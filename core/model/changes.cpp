@@ -39,58 +39,43 @@ const Setting* find(const TypeUse& use, const std::string& name) {
     return it == use.settings.end() ? nullptr : &*it;
 }
 
-class Changes {
-  public:
-    std::vector<Assignment> all;
-
-    void add(Assignment::Owner owner, const std::string& id, const std::string& name, const TypeUse& before,
-             const TypeUse& after, const std::vector<Parameter>* parameters) {
-        if (!parameters) return;
-        for (const Parameter& p : *parameters) {
-            const Setting *was = find(before, p.name), *is = find(after, p.name);
-            if (was ? is && was->value == is->value : !is) continue;
-            ParameterValue value = p.default_value;
-            if (is) {
-                const auto parsed = parse_parameter(p.kind, is->value);
-                if (!parsed) continue;
-                value = p.is_path ? ParameterValue(resolved(is->value, is->value_at)) : *parsed;
-            }
-            all.push_back({owner, id, &p, value, fmt::format("{}.{}={}", name, p.name, to_text(value)), {}});
-        }
-    }
-};
-
-template <class Type>
-const std::vector<Parameter>* parameters(const Type* type) {
-    return type ? &type->parameters : nullptr;
-}
-
 }  // namespace
 
 std::optional<std::vector<Assignment>> parameter_changes(const System& before, const System& after,
                                                          const Registry& registry) {
     if (!same_structure(before, after)) return std::nullopt;
-    Changes out;
+    std::vector<Assignment> out;
+    const auto add = [&](Assignment::Owner owner, const std::string& id, std::string_view name,
+                         const TypeUse& was, const TypeUse& is) {
+        const auto* parameters = parameters_of(registry, owner, is.type);
+        if (!parameters) return;
+        for (const Parameter& p : *parameters) {
+            const Setting *had = find(was, p.name), *has = find(is, p.name);
+            if (had ? has && had->value == has->value : !has) continue;
+            ParameterValue value = p.default_value;
+            if (has) {
+                const auto parsed = parse_parameter(p.kind, has->value);
+                if (!parsed) continue;
+                value = p.is_path ? ParameterValue(resolved(has->value, has->value_at)) : *parsed;
+            }
+            out.push_back({owner, id, &p, value, fmt::format("{}.{}={}", name, p.name, to_text(value)), {}});
+        }
+    };
     for (std::size_t i = 0; i < after.processes.size(); ++i) {
         const auto &was = before.processes[i], &is = after.processes[i];
         if (is.module && !(was.module == is.module))
-            out.add(Assignment::Owner::process, is.id, std::string(trim(is.name)), *was.module, *is.module,
-                    parameters(registry.module(is.module->type)));
+            add(Assignment::Owner::process, is.id, trim(is.name), *was.module, *is.module);
         for (std::size_t k = 0; k < is.groups.size(); ++k)
             if (!(was.groups[k].neuron == is.groups[k].neuron))
-                out.add(Assignment::Owner::group, is.groups[k].id, path(after, is, is.groups[k]),
-                        was.groups[k].neuron, is.groups[k].neuron,
-                        parameters(registry.neuron(is.groups[k].neuron.type)));
+                add(Assignment::Owner::group, is.groups[k].id, path(after, is, is.groups[k]),
+                    was.groups[k].neuron, is.groups[k].neuron);
     }
     for (std::size_t i = 0; i < after.connections.size(); ++i) {
         const auto &was = before.connections[i], &is = after.connections[i];
-        if (!is.synapse || was.synapse == is.synapse) continue;
-        const auto same_name = std::ranges::count_if(
-            after.connections, [&](const auto& other) { return trim(other.name) == trim(is.name); });
-        out.add(Assignment::Owner::connection, is.id, same_name > 1 ? is.id : std::string(trim(is.name)),
-                *was.synapse, *is.synapse, parameters(registry.synapse(is.synapse->type)));
+        if (is.synapse && was.synapse != is.synapse)
+            add(Assignment::Owner::connection, is.id, unique_name(after, is), *was.synapse, *is.synapse);
     }
-    return std::move(out.all);
+    return out;
 }
 
 }  // namespace forage::model

@@ -23,26 +23,21 @@ struct Owner {
     const std::vector<Parameter>* parameters = nullptr;  ///< null when the type is unknown
 };
 
-template <class Type>
-const std::vector<Parameter>* parameters_of(const Type* type) {
-    return type ? &type->parameters : nullptr;
-}
-
 std::vector<Owner> find_owners(const System& system, const Registry& registry, std::string_view where) {
     std::vector<Owner> owners;
+    const auto add = [&](Assignment::Owner kind, const std::string& id, const TypeUse* use) {
+        owners.push_back({kind, id, use, use ? parameters_of(registry, kind, use->type) : nullptr});
+    };
     for (const auto& [process, group] : find_groups(system, where))
-        owners.push_back({Assignment::Owner::group, group->id, &group->neuron,
-                          parameters_of(registry.neuron(group->neuron.type))});
+        add(Assignment::Owner::group, group->id, &group->neuron);
     if (!owners.empty()) return owners;
     for (const int i : items_named(system.processes, where)) {
         const Process& p = system.processes[i];
-        owners.push_back({Assignment::Owner::process, p.id, p.module ? &*p.module : nullptr,
-                          p.module ? parameters_of(registry.module(p.module->type)) : nullptr});
+        add(Assignment::Owner::process, p.id, p.module ? &*p.module : nullptr);
     }
     for (const int i : items_named(system.connections, where))
         if (const Connection& c = system.connections[i]; c.synapse)
-            owners.push_back({Assignment::Owner::connection, c.id, &*c.synapse,
-                              parameters_of(registry.synapse(c.synapse->type))});
+            add(Assignment::Owner::connection, c.id, &*c.synapse);
     return owners;
 }
 
@@ -100,8 +95,7 @@ std::optional<Assignment> resolve(const System& system, const Registry& registry
                        "");
     const auto it = std::ranges::find(*owner.parameters, parameter.text, &Parameter::name);
     if (it == owner.parameters->end()) {
-        std::vector<std::string> known;
-        for (const auto& p : *owner.parameters) known.push_back(p.name);
+        auto known = names_of(*owner.parameters);
         if (is_process) known.emplace_back("enableModule");
         return problem(parameter, fmt::format("{} has no parameter '{}'", owner.use->type, parameter.text),
                        suggest(parameter.text, known));
@@ -131,6 +125,14 @@ auto& use_of(S& system, const Assignment& a) {
 
 }  // namespace
 
+const std::vector<Parameter>* parameters_of(const Registry& registry, Assignment::Owner owner,
+                                            std::string_view type) {
+    const auto of = [](const auto* found) { return found ? &found->parameters : nullptr; };
+    return owner == Assignment::Owner::group     ? of(registry.neuron(type))
+           : owner == Assignment::Owner::process ? of(registry.module(type))
+                                                 : of(registry.synapse(type));
+}
+
 std::optional<Assignment> find_parameter(const System& system, const Registry& registry,
                                          std::string_view name, std::string_view what,
                                          Diagnostics& diagnostics) {
@@ -150,13 +152,8 @@ std::vector<std::string> parameter_names(const System& system, const Registry& r
         if (p.module && p.module_enabled) add(trim(p.name), registry.module(p.module->type));
         for (const auto& g : p.groups) add(path(system, p, g), registry.neuron(g.neuron.type));
     }
-    const auto same_name = [&](const Connection& c) {
-        return std::ranges::count_if(system.connections,
-                                     [&](const auto& other) { return trim(other.name) == trim(c.name); });
-    };
     for (const auto& c : system.connections)
-        if (c.synapse)
-            add(same_name(c) > 1 ? std::string_view(c.id) : trim(c.name), registry.synapse(c.synapse->type));
+        if (c.synapse) add(unique_name(system, c), registry.synapse(c.synapse->type));
     return out;
 }
 

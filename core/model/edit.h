@@ -23,6 +23,11 @@ struct Assignment {
     Location at;                           ///< the location of the text; without a file: the command line
 };
 
+/// The parameters of a neuron, module or synapse type, by the kind of the items that use it; null when the
+/// type is unknown.
+const std::vector<Parameter>* parameters_of(const Registry& registry, Assignment::Owner owner,
+                                            std::string_view type);
+
 /// Reads "WHERE.parameter=value". WHERE is a group ("Process/Group": a parameter of its neuron), a process
 /// ("Process": a parameter of its module, or enableModule) or a connection (its name or id: a parameter of
 /// its synapse). Reports unknown names, with those that exist, and wrong values, which are checked like those

@@ -29,8 +29,7 @@ void check_adaptation(const Experiment& e, Diagnostics& diagnostics) {
     const Adaptation& a = *e.adaptation;
     const auto named = [&](const Measure& m) { return m.name == a.measure.text; };
     if (!a.measure.empty() && std::ranges::none_of(e.measures, named)) {
-        std::vector<std::string> names;
-        for (const auto& m : e.measures) names.push_back(m.name);
+        const auto names = names_of(e.measures);
         diagnostics.error(a.measure.at, fmt::format("there is no measure '{}'", a.measure.text),
                           names.empty() ? "the experiment measures nothing yet"
                                         : fmt::format("there are '{}'", separated(names, "', '")));

@@ -111,8 +111,7 @@ class Validator {
     }
 
     void check_settings(const TypeUse& use, const std::vector<Parameter>& parameters) {
-        std::vector<std::string> known;
-        for (const auto& p : parameters) known.push_back(p.name);
+        const auto known = names_of(parameters);
         std::map<std::string_view, int> first_line;
         for (const auto& s : use.settings) {
             const Parameter* p = find_parameter(parameters, s.name);
@@ -233,9 +232,9 @@ class Validator {
         const bool enabled = process.module_enabled;
         const std::string_view holder = outputs ? "OutputToGroup" : "InputFromGroup";
         std::vector<ModulePort> ports;
-        std::vector<std::string> known;
         for (const auto& port : type.ports)
-            if (port.is_output == outputs) ports.push_back(port), known.push_back(port.name);
+            if (port.is_output == outputs) ports.push_back(port);
+        const auto known = names_of(ports);
         std::map<std::string_view, int> first_line;
         std::vector<std::string_view>
             meant;  // ports that misspelt references mean; they are not reported as missing
@@ -369,16 +368,16 @@ class Validator {
 
     void check_delay(const DistanceFunction& f) {
         std::vector<double> bounds;
-        if (const auto* uniform = std::get_if<UniformFunction>(&f.form))
-            bounds = {uniform->value};
-        else if (const auto* linear = std::get_if<LinearFunction>(&f.form))
-            bounds = {linear->min, linear->max};
-        else if (const auto* gaussian = std::get_if<GaussianFunction>(&f.form))
-            bounds = {gaussian->min, gaussian->max};
-        else if (const auto* block = std::get_if<BlockFunction>(&f.form))
-            bounds = {block->min, block->max};
-        else
-            bounds = {std::get<RandomFunction>(f.form).max};
+        std::visit(
+            [&](const auto& form) {
+                if constexpr (requires { form.value; })
+                    bounds = {form.value};
+                else if constexpr (requires { form.min; })
+                    bounds = {form.min, form.max};
+                else
+                    bounds = {form.max};
+            },
+            f.form);
         for (const double v : bounds) {
             if (v > max_delay)
                 out_.error(f.at, fmt::format("a delay of {} cycles is not possible", to_text(v)),
@@ -415,16 +414,14 @@ class Validator {
     }
 
     void check_feedback(const SynapseUse& use, const SynapseType& type, const Group* target) {
-        std::vector<std::string> known;
-        for (const auto& f : type.feedback) known.push_back(f.name);
+        const auto known = names_of(type.feedback);
         for (const auto& r : use.feedback)
             if (std::ranges::find(known, r.name) == known.end())
                 out_.unknown(r.at, fmt::format("{} has no feedback input '{}'", use.type, r.name),
                              known.empty() ? fmt::format("{} has none", use.type) : suggest(r.name, known));
         const NeuronType* neuron = target ? registry_.neuron(target->neuron.type) : nullptr;
         if (!neuron) return;
-        std::vector<std::string> states;
-        for (const auto& s : neuron->states) states.push_back(s.name);
+        const auto states = names_of(neuron->states);
         for (const auto& f : type.feedback) {
             const auto it = std::ranges::find(use.feedback, f.name, &CrossReference::name);
             if (it == use.feedback.end() || it->target.empty()) {
