@@ -26,24 +26,6 @@ void refuse_edit(const Process& p) {
                            p.path));
 }
 
-Process& process_of(System& system, std::string_view id) {
-    Process* p = find_process(system, id);
-    if (!p) missing("process", id);
-    refuse_edit(*p);
-    return *p;
-}
-Group& group_of(System& system, std::string_view id) {
-    for (auto& p : system.processes)
-        for (auto& g : p.groups)
-            if (g.id == id) return refuse_edit(p), g;
-    missing("group", id);
-}
-Connection& connection_of(System& system, std::string_view id) {
-    Connection* c = find_connection(system, id);
-    if (!c) missing("connection", id);
-    if (c->linked) refuse(fmt::format("connection '{}' is in the file of a linked process", trim(c->name)));
-    return *c;
-}
 void require_group(System& system, std::string_view id) {
     if (!find_group(system, id)) missing("group", id);
 }
@@ -55,14 +37,14 @@ void move(std::optional<Icon>& icon, int x, int y) {
 
 /// The use of a type in a group, connection or process.
 TypeUse& use_of(System& system, std::string_view id) {
-    if (find_group(system, id)) return group_of(system, id).neuron;
+    if (find_group(system, id)) return editable_group(system, id).neuron;
     if (find_connection(system, id)) {
-        auto& c = connection_of(system, id);
+        auto& c = editable_connection(system, id);
         if (!c.synapse) refuse(fmt::format("connection '{}' has no synapse", trim(c.name)));
         return *c.synapse;
     }
     if (find_process(system, id)) {
-        auto& p = process_of(system, id);
+        auto& p = editable_process(system, id);
         if (!p.module) refuse(fmt::format("process '{}' has no module", trim(p.name)));
         return *p.module;
     }
@@ -109,6 +91,27 @@ std::string free_name(const Items& taken, const std::string& name) {
 
 }  // namespace
 
+Process& editable_process(System& system, std::string_view id) {
+    Process* p = find_process(system, id);
+    if (!p) missing("process", id);
+    refuse_edit(*p);
+    return *p;
+}
+
+Group& editable_group(System& system, std::string_view id) {
+    for (auto& p : system.processes)
+        for (auto& g : p.groups)
+            if (g.id == id) return refuse_edit(p), g;
+    missing("group", id);
+}
+
+Connection& editable_connection(System& system, std::string_view id) {
+    Connection* c = find_connection(system, id);
+    if (!c) missing("connection", id);
+    if (c->linked) refuse(fmt::format("connection '{}' is in the file of a linked process", trim(c->name)));
+    return *c;
+}
+
 const TypeUse* find_use(const System& system, std::string_view id) {
     for (const auto& p : system.processes) {
         if (p.id == id) return p.module ? &*p.module : nullptr;
@@ -120,12 +123,23 @@ const TypeUse* find_use(const System& system, std::string_view id) {
     return nullptr;
 }
 
+std::string name_of(const System& system, std::string_view id) {
+    for (const auto& p : system.processes) {
+        if (p.id == id) return std::string(trim(p.name));
+        for (const auto& g : p.groups)
+            if (g.id == id) return path(system, p, g);
+    }
+    for (const auto& c : system.connections)
+        if (c.id == id) return std::string(trim(c.name));
+    return {};
+}
+
 void place(System& system, std::string_view id, int x, int y) {
     if (Process* p = find_process(system, id)) {
         move(p->icon, x, y);
         if (p->linked()) move(p->placeholder.front().icon, x, y);
     } else if (find_group(system, id)) {
-        move(group_of(system, id).icon, x, y);
+        move(editable_group(system, id).icon, x, y);
     } else if (find_canvas_comment(system, id)) {
         set_comment(system, id, {.x = x, .y = y});
     } else {
@@ -151,7 +165,7 @@ void place_phantom(System& system, std::string_view process, std::string_view gr
 }
 
 void set_line(System& system, std::string_view id, LineChange change) {
-    auto& c = connection_of(system, id);
+    auto& c = editable_connection(system, id);
     for (const auto& anchor : {change.source_anchor, change.target_anchor})
         if (anchor && (*anchor < 0 || *anchor > 15)) refuse("an anchor is a number from 0 to 15");
     if (!c.line) c.line.emplace();
@@ -163,7 +177,7 @@ void set_line(System& system, std::string_view id, LineChange change) {
 }
 
 void reroute(System& system, std::string_view id, std::string_view source, std::string_view target) {
-    auto& c = connection_of(system, id);
+    auto& c = editable_connection(system, id);
     for (const auto end : {source, target})
         if (!end.empty()) require_group(system, end);
     const GroupIndex groups(system);
@@ -199,11 +213,11 @@ void set_comment(System& system, std::string_view id, CommentChange change) {
 
 void set_color(System& system, std::string_view id, std::string color) {
     if (find_process(system, id))
-        process_of(system, id).color = std::move(color);
+        editable_process(system, id).color = std::move(color);
     else if (find_canvas_comment(system, id))
         set_comment(system, id, {.color = std::move(color)});
     else
-        group_of(system, id).color = std::move(color);
+        editable_group(system, id).color = std::move(color);
 }
 
 void set_note(System& system, std::string_view id, std::string text) {
@@ -211,32 +225,26 @@ void set_note(System& system, std::string_view id, std::string text) {
     if (id == system.id)
         system.note = std::move(note);
     else if (find_process(system, id))
-        process_of(system, id).note = std::move(note);
+        editable_process(system, id).note = std::move(note);
     else if (find_group(system, id))
-        group_of(system, id).note = std::move(note);
+        editable_group(system, id).note = std::move(note);
     else
-        connection_of(system, id).note = std::move(note);
-}
-
-void set_kind(System& system, std::string_view id, InputKind kind) { connection_of(system, id).kind = kind; }
-
-void set_enabled(System& system, std::string_view id, bool enabled) {
-    process_of(system, id).module_enabled = enabled;
+        editable_connection(system, id).note = std::move(note);
 }
 
 void set_type(System& system, const Registry& registry, std::string_view id, Part part,
               const std::string& type) {
     if (part == Part::neuron) {
-        change_type(group_of(system, id).neuron, registry.neuron(type), type, "neuron");
+        change_type(editable_group(system, id).neuron, registry.neuron(type), type, "neuron");
     } else if (part == Part::synapse) {
-        auto& c = connection_of(system, id);
+        auto& c = editable_connection(system, id);
         const auto* found = registry.synapse(type);
         SynapseUse use = c.synapse.value_or(SynapseUse());
         change_type(use, found, type, "synapse");
         keep_ports(use.feedback, found->feedback);
         c.synapse = std::move(use);
     } else {
-        auto& p = process_of(system, id);
+        auto& p = editable_process(system, id);
         if (type.empty()) return p.module.reset();
         const auto* found = registry.module(type);
         ModuleUse use = p.module.value_or(ModuleUse());
@@ -255,25 +263,9 @@ void set_parameter(System& system, std::string_view id, const std::string& name,
         std::erase_if(use.settings, [&](const Setting& s) { return s.name == name; });
 }
 
-void set_topology(System& system, std::string_view id, Topology topology) {
-    group_of(system, id).topology = std::move(topology);
-}
-void set_pattern(System& system, std::string_view id, Pattern pattern) {
-    connection_of(system, id).pattern = std::move(pattern);
-}
-void set_arborization(System& system, std::string_view id, Arborization arborization) {
-    connection_of(system, id).arborization = std::move(arborization);
-}
-void set_attenuation(System& system, std::string_view id, DistanceFunction function) {
-    connection_of(system, id).attenuation = std::move(function);
-}
-void set_delay(System& system, std::string_view id, DistanceFunction function) {
-    connection_of(system, id).delay = std::move(function);
-}
-
 void set_ports(System& system, std::string_view id, const std::map<std::string, std::string>& inputs,
                const std::map<std::string, std::string>& outputs) {
-    auto& p = process_of(system, id);
+    auto& p = editable_process(system, id);
     if (!p.module) refuse(fmt::format("process '{}' has no module", trim(p.name)));
     for (const auto* ports : {&inputs, &outputs})
         for (const auto& [name, group] : *ports)
@@ -283,7 +275,7 @@ void set_ports(System& system, std::string_view id, const std::map<std::string, 
 }
 
 void set_feedback(System& system, std::string_view id, const std::map<std::string, std::string>& states) {
-    auto& c = connection_of(system, id);
+    auto& c = editable_connection(system, id);
     if (!c.synapse) refuse(fmt::format("connection '{}' has no synapse", trim(c.name)));
     set_references(c.synapse->feedback, states);
 }

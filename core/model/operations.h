@@ -16,8 +16,16 @@
 
 namespace forage::model {
 
+/// The item with this id, whose members may be changed.
+Process& editable_process(System& system, std::string_view id);
+Group& editable_group(System& system, std::string_view id);
+Connection& editable_connection(System& system, std::string_view id);
+
 /// The use of a type in the group, process or connection with this id; null when there is none.
 const TypeUse* find_use(const System& system, std::string_view id);
+
+/// The path of the group, or the name of the process or connection with this id; empty when there is none.
+std::string name_of(const System& system, std::string_view id);
 
 /// Moves the icon of a process or group, or a comment, in the diagram's units. An item without an icon gets
 /// one.
@@ -48,8 +56,6 @@ void set_comment(System& system, std::string_view id, CommentChange change);
 void set_color(System& system, std::string_view id, std::string color);  ///< of a process, group or comment
 /// Sets the note of an item, or of the system when `id` is the system's. An empty note removes it.
 void set_note(System& system, std::string_view id, std::string note);
-void set_kind(System& system, std::string_view id, InputKind kind);
-void set_enabled(System& system, std::string_view id, bool enabled);  ///< the module of a process
 
 enum class Part { neuron, synapse, module };
 /// Sets the type of a group's neuron, a connection's synapse or a process's module. Parameters and cross
@@ -62,12 +68,6 @@ void set_type(System& system, const Registry& registry, std::string_view id, Par
 /// value, the parameter gets its default and its element is removed.
 void set_parameter(System& system, std::string_view id, const std::string& name,
                    const std::optional<std::string>& value);
-
-void set_topology(System& system, std::string_view id, Topology topology);
-void set_pattern(System& system, std::string_view id, Pattern pattern);
-void set_arborization(System& system, std::string_view id, Arborization arborization);
-void set_attenuation(System& system, std::string_view id, DistanceFunction function);
-void set_delay(System& system, std::string_view id, DistanceFunction function);
 
 /// Sets cross references of a module: names of ports, and ids of groups or nothing. Others are kept.
 void set_ports(System& system, std::string_view id, const std::map<std::string, std::string>& inputs,

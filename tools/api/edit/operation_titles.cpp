@@ -11,14 +11,8 @@ namespace {
 
 using namespace model;
 
-std::string name_of(const System& system, const std::string& id) {
-    for (const auto& p : system.processes) {
-        if (p.id == id) return std::string(trim(p.name));
-        for (const auto& g : p.groups)
-            if (g.id == id) return path(system, p, g);
-    }
-    for (const auto& c : system.connections)
-        if (c.id == id) return std::string(trim(c.name));
+std::string what_is(const System& system, const std::string& id) {
+    if (auto out = name_of(system, id); !out.empty()) return out;
     const auto title = [&](const std::vector<CanvasComment>& comments) {
         const auto it = std::ranges::find(comments, id, &CanvasComment::id);
         return it == comments.end() ? std::string() : fmt::format("comment '{}'", first_words(it->text));
@@ -33,11 +27,11 @@ std::string name_of(const System& system, const std::string& id) {
 
 std::string title_of(const json& o, const System& system) {
     const auto what = o.value("do", "");
-    const auto name = name_of(system, o.value("id", ""));
+    const auto name = what_is(system, o.value("id", ""));
     if (what.starts_with("add_")) return fmt::format("add {}", o.value("name", what.substr(4)));
     if (what == "remove") {
         const auto ids = o.value("ids", std::vector<std::string>());
-        return ids.size() == 1 ? "remove " + name_of(system, ids.front())
+        return ids.size() == 1 ? "remove " + what_is(system, ids.front())
                                : fmt::format("remove {} items", ids.size());
     }
     if (what == "parameter") {
@@ -48,7 +42,7 @@ std::string title_of(const json& o, const System& system) {
                                              : value.dump());
     }
     if (what == "place") return "move " + name;
-    if (what == "phantom") return "move the phantom of " + name_of(system, o.value("group", ""));
+    if (what == "phantom") return "move the phantom of " + what_is(system, o.value("group", ""));
     if (what == "comment") return "change " + name;
     if (what == "rename") return fmt::format("rename {} to {}", name, o.value("name", ""));
     if (what == "set") return fmt::format("{} of {}", o.value("property", "property"), name);

@@ -122,9 +122,9 @@ struct SystemEdit {
         else if (property == "note")
             set_note(system, id(), value.get<std::string>());
         else if (property == "kind")
-            set_kind(system, id(), kind(value.get<std::string>()));
+            editable_connection(system, id()).kind = kind(value.get<std::string>());
         else if (property == "enabled")
-            set_enabled(system, id(), value.get<bool>());
+            editable_process(system, id()).module_enabled = value.get<bool>();
         else
             set_feedback(system, id(), value.get<Strings>());
         return nullptr;
@@ -140,13 +140,18 @@ struct SystemEdit {
         if (value) written = value->is_string() ? value->get<std::string>() : value->dump();
         return set_parameter(system, id(), text("name"), written), nullptr;
     }
-    json topology() { return set_topology(system, id(), topology_from(o)), nullptr; }
-    json pattern() { return set_pattern(system, id(), pattern_from(o.at("pattern"))), nullptr; }
-    json arborization() {
-        return set_arborization(system, id(), arborization_from(o.at("arborization"))), nullptr;
+    json topology() { return editable_group(system, id()).topology = topology_from(o), nullptr; }
+    json pattern() {
+        return editable_connection(system, id()).pattern = pattern_from(o.at("pattern")), nullptr;
     }
-    json attenuation() { return set_attenuation(system, id(), function_from(o.at("attenuation"))), nullptr; }
-    json delay() { return set_delay(system, id(), function_from(o.at("delay"))), nullptr; }
+    json arborization() {
+        return editable_connection(system, id()).arborization = arborization_from(o.at("arborization")),
+                                           nullptr;
+    }
+    json attenuation() {
+        return editable_connection(system, id()).attenuation = function_from(o.at("attenuation")), nullptr;
+    }
+    json delay() { return editable_connection(system, id()).delay = function_from(o.at("delay")), nullptr; }
     json ports() {
         const json none = json::object();
         const auto side = [&](const char* name) {

@@ -23,6 +23,6 @@ TEST_CASE("a run needs only parameters, is rebuilt, or stays as it is") {
     CHECK((*changes)[1].text == "A to B.weight=2");
     const auto back = parameter_changes(s.system, before, s.registry);
     CHECK(std::get<double>((*back)[1].value) == 1);  // its default
-    set_delay(s.system, "c", {UniformFunction{1}, {}});
+    editable_connection(s.system, "c").delay = {UniformFunction{1}, {}};
     CHECK_FALSE(parameter_changes(before, s.system, s.registry));
 }

@@ -128,11 +128,11 @@ std::vector<Edit> edits_of_group(const std::string& id, const Registry& registry
         {"defaults", [=](System& s) { find_group(s, id)->neuron.settings.clear(); }},
         {"rectangle",
          [=](System& s) {
-             set_topology(s, id, RectTopology{7, 5, true, false});
+             editable_group(s, id).topology = RectTopology{7, 5, true, false};
          }},
         {"sparse",
          [=](System& s) {
-             set_topology(s, id, SparseTopology{{{1, 1, {}}, {3, 2, {}}}});
+             editable_group(s, id).topology = SparseTopology{{{1, 1, {}}, {3, 2, {}}}};
          }},
     };
 }
@@ -143,7 +143,7 @@ std::vector<Edit> edits_of_connection(const std::string& id, const Registry& reg
     const List list{{{1, 1, {}}, {2, 1, {}}}, {}};
     return {
         {"rename", [=](System& s) { rename(s, id, "other"); }},
-        {"kind", [=](System& s) { set_kind(s, id, InputKind::modulatory); }},
+        {"kind", [=](System& s) { editable_connection(s, id).kind = InputKind::modulatory; }},
         {"line",
          [=](System& s) {
              set_line(s, id, {3, 12, std::vector<Point>{{10, 20, {}}, {30, 40, {}}}});
@@ -158,16 +158,16 @@ std::vector<Edit> edits_of_connection(const std::string& id, const Registry& reg
         {"parameter", [=](System& s) { set_parameter(s, id, "weight", "0.125"); }},
         {"foreach",
          [=](System& s) {
-             set_pattern(s, id, ForeachPattern{region, list});
+             editable_connection(s, id).pattern = ForeachPattern{region, list};
          }},
         {"mapped",
          [=](System& s) {
-             set_pattern(s, id, MappedPattern{true, All{}, region});
+             editable_connection(s, id).pattern = MappedPattern{true, All{}, region};
          }},
-        {"mapped by default", [=](System& s) { set_pattern(s, id, MappedPattern{}); }},
+        {"mapped by default", [=](System& s) { editable_connection(s, id).pattern = MappedPattern{}; }},
         {"tuples",
          [=](System& s) {
-             set_pattern(s, id, TuplesPattern{{{list.points, {{1, 1, {}}}}}});
+             editable_connection(s, id).pattern = TuplesPattern{{{list.points, {{1, 1, {}}}}}};
          }},
         {"another tuple",
          [=](System& s) {
@@ -177,25 +177,25 @@ std::vector<Edit> edits_of_connection(const std::string& id, const Registry& reg
          }},
         {"ellipse",
          [=](System& s) {
-             set_arborization(s, id, {EllipseArbor{3, 2}, Direction::projective, 0.5, {}});
+             editable_connection(s, id).arborization = {EllipseArbor{3, 2}, Direction::projective, 0.5, {}};
          }},
         {"window",
          [=](System& s) {
-             set_arborization(s, id, {RectWindowArbor{1, 1, 3, 3}, {}, 1, {}});
+             editable_connection(s, id).arborization = {RectWindowArbor{1, 1, 3, 3}, {}, 1, {}};
          }},
         {"random",
          [=](System& s) {
-             set_arborization(s, id, {RandomArbor{2}, {}, 1, {}});
+             editable_connection(s, id).arborization = {RandomArbor{2}, {}, 1, {}};
          }},
         {"attenuation",
          [=](System& s) {
-             set_attenuation(s, id, {GaussianFunction{0, 1, 2}, {}});
+             editable_connection(s, id).attenuation = {GaussianFunction{0, 1, 2}, {}};
          }},
         {"delay",
          [=](System& s) {
-             set_delay(s, id, {UniformFunction{3}, {}});
+             editable_connection(s, id).delay = {UniformFunction{3}, {}};
          }},
-        {"no delay", [=](System& s) { set_delay(s, id, {}); }},
+        {"no delay", [=](System& s) { editable_connection(s, id).delay = {}; }},
     };
 }
 
@@ -205,7 +205,8 @@ std::vector<Edit> edits_of_process(const std::string& id) {
         {"rename", [=](System& s) { rename(s, id, "other"); }},
         {"place", [=](System& s) { place(s, id, 5, 6); }},
         {"note", [=](System& s) { set_note(s, id, "why"); }},
-        {"enabled", [=](System& s) { set_enabled(s, id, !find_process(s, id)->module_enabled); }},
+        {"enabled",
+         [=](System& s) { editable_process(s, id).module_enabled = !find_process(s, id)->module_enabled; }},
         {"module",
          [=](System& s) {
              find_process(s, id)->module =
@@ -308,7 +309,7 @@ TEST_CASE("values, comments and blanks of what was not touched stay") {
         return t.replace(t.find("0.50"), 4, "0.75");
     }());
     const auto wrapped = text_of(hand_written, [](System& s) {
-        set_topology(s, "g", RectTopology{9, 1, true, false});
+        editable_group(s, "g").topology = RectTopology{9, 1, true, false};
     });
     CHECK(wrapped.find(R"(<TopologyRect vcount="01" cylinderVert="true" hcount="9"/>)") != wrapped.npos);
 
@@ -319,7 +320,7 @@ TEST_CASE("values, comments and blanks of what was not touched stay") {
     CHECK(removed.find("    </Group>\n  </Process>\n\n</System>") != removed.npos);
 
     const auto sparse = text_of(hand_written, [](System& s) {
-        set_topology(s, "g", SparseTopology{{{2, 1, {}}}});
+        editable_group(s, "g").topology = SparseTopology{{{2, 1, {}}}};
     });
     CHECK(sparse.find("        <!-- a row --> <TopologySparse><Point x=\"2\" y=\"1\"/></TopologySparse>\n") !=
           sparse.npos);
@@ -336,7 +337,7 @@ TEST_CASE("values, comments and blanks of what was not touched stay") {
     CHECK(synapse.find("    <Synapse name=\"synapseFixedWeight\">\n      <Parameter name=\"weight\" "
                        "value=\"2\"/>\n    </Synapse>\n") != synapse.npos);
     const auto delayed = text_of(hand_written, [](System& s) {
-        set_delay(s, "c", {UniformFunction{2}, {}});
+        editable_connection(s, "c").delay = {UniformFunction{2}, {}};
     });
     CHECK(delayed.find("    <Pattern><PatternMapped/></Pattern>\n    <DelayFunction>\n") != delayed.npos);
 }
