@@ -81,13 +81,13 @@ struct Exercise {
 struct Adaptation {
     enum class Kind {
         confidence,  ///< until the 95 % interval of each combination's mean is narrow enough
-        halving,     ///< the better half of the combinations goes on with twice as many seeds
+        halving,     ///< the better half of the combinations gets twice as many seeds
     };
     Kind kind = Kind::confidence;
     Expression measure;                                     ///< the name of the measure that decides
     std::optional<double> width = {}, relative_width = {};  ///< of the interval; as a share of the mean
     std::uint64_t most = 100;                               ///< seeds of a combination, for confidence
-    bool highest = true;                                    ///< whether high numbers are good, for halving
+    bool lowest = false;                                    ///< whether low numbers are good, for halving
     Location at;
 };
 

@@ -3,12 +3,16 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "core/model/expression.h"
+#include "core/model/lookup.h"
 #include "core/model/system.h"
 #include "core/types/parameter.h"
 #include "core/xml/document.h"
@@ -21,24 +25,30 @@ namespace forage::xml {
 template <class Struct>
 struct AttributeOf {
     std::variant<std::string Struct::*, int Struct::*, double Struct::*, bool Struct::*,
-                 model::Direction Struct::*, InputKind Struct::*>
+                 model::Direction Struct::*, InputKind Struct::*, model::Expression Struct::*,
+                 std::uint64_t Struct::*, std::optional<std::uint64_t> Struct::*,
+                 std::optional<double> Struct::*>
         member;
     AttributeRule rule;
     Location Struct::*at = nullptr;  ///< the member that holds the location of the value
 };
 
-/// The value of an attribute as a file has it.
+/// The value of an attribute as a file has it; empty for a member that may be empty.
 template <class Struct>
 ParameterValue value_of(const AttributeOf<Struct>& attribute, const Struct& s) {
     const auto& choices = attribute.rule.value.choices;
     return std::visit(
         [&]<class T>(T Struct::*member) -> ParameterValue {
-            if constexpr (!std::is_enum_v<T>)
-                if (choices.empty()) return s.*member;
             if constexpr (std::is_same_v<T, std::string>)
                 return s.*member;
-            else
+            else if constexpr (std::is_class_v<T>)
+                return std::string();
+            else if (!choices.empty())
                 return choices[static_cast<std::size_t>(s.*member)];
+            else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, double>)
+                return s.*member;
+            else
+                return static_cast<int>(s.*member);
         },
         attribute.member);
 }
@@ -46,8 +56,7 @@ ParameterValue value_of(const AttributeOf<Struct>& attribute, const Struct& s) {
 /// An element that describes a `Struct`. Its attributes are in the order in which they are written.
 template <class Struct>
 struct ElementOf {
-    std::string name = {}, doc = {};
-    std::string_view content = {};
+    std::string name = {}, doc = {}, content = {};
     std::vector<AttributeOf<Struct>> attributes = {};
     std::vector<AttributeRule> further_attributes = {};  ///< whose values are members of another struct
     int choose = 0;
@@ -70,12 +79,22 @@ struct ElementOf {
         for (const auto& attribute : attributes) {
             const Value value = e[attribute.rule.name];
             const auto& choices = attribute.rule.value.choices;
+            const auto text =
+                attribute.rule.relative_path ? model::resolved(value.text(), value.where()) : value.text();
             if (attribute.at) s.*attribute.at = value.where();
             std::visit(
                 [&]<class T>(T Struct::*member) {
                     T& to = s.*member;
                     if constexpr (std::is_same_v<T, std::string>)
-                        to = value.view;
+                        to = text;
+                    else if constexpr (std::is_same_v<T, model::Expression>)
+                        to = {text, value.where()};
+                    else if constexpr (std::is_same_v<T, std::optional<double>>)
+                        to = value.number();
+                    else if constexpr (std::is_same_v<T, std::optional<std::uint64_t>>)
+                        to = value.count();
+                    else if constexpr (std::is_same_v<T, std::uint64_t>)
+                        to = value.count().value_or(to);
                     else if constexpr (std::is_same_v<T, int>)
                         to = value.whole(to);
                     else if constexpr (std::is_same_v<T, double>)
@@ -91,10 +110,11 @@ struct ElementOf {
 };
 
 template <class Struct>
-ElementOf<Struct> element(std::string name, std::string doc, std::string_view content,
+ElementOf<Struct> element(std::string name, std::string doc, std::string content,
                           std::vector<AttributeOf<Struct>> attributes,
                           std::vector<AttributeRule> further_attributes = {}) {
-    return {std::move(name), std::move(doc), content, std::move(attributes), std::move(further_attributes)};
+    return {std::move(name), std::move(doc), std::move(content), std::move(attributes),
+            std::move(further_attributes)};
 }
 
 }  // namespace forage::xml

@@ -56,6 +56,12 @@ int Value::whole(int otherwise) const {
                                                                         : otherwise;
 }
 
+std::optional<std::uint64_t> Value::count() const {
+    const auto value = number();
+    return value && *value >= 0 && *value <= 2e9 ? std::optional(static_cast<std::uint64_t>(*value))
+                                                 : std::nullopt;
+}
+
 std::optional<bool> Value::flag() const {
     std::string lower(view.substr(0, 6));
     for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));

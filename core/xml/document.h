@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -71,6 +72,8 @@ struct Value {
     double number(double otherwise) const { return number().value_or(otherwise); }
     /// The number without its fraction; `otherwise` also for a number that does not fit into an int.
     int whole(int otherwise) const;
+    /// The number without its fraction, when it is from 0 to 2e9.
+    std::optional<std::uint64_t> count() const;
     /// The value of true, false, 1 or 0, in upper or lower case.
     std::optional<bool> flag() const;
     bool flag(bool otherwise) const { return flag().value_or(otherwise); }

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <set>
+#include <span>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "core/base/number.h"
 #include "core/base/separated.h"
 #include "core/xml/check.h"
+#include "core/xml/experiment_elements.h"
 
 namespace forage::xml {
 namespace {
@@ -24,19 +26,20 @@ class ExperimentReader {
         const Element root = document_.root();
         experiment_.path = document_.source->path;
         if (const Element e = root.child("note")) experiment_.note = e.text();
-        for (const Element& e : root.children("system"))
-            experiment_.systems.push_back({file(e["file"]), e["file"].where()});
-        if (const Element e = root.child("world")) world(e);
-        if (const Element e = root.child("length")) length(e);
+        for (const Element& e : root.children()) {
+            read_attributes(e, experiment_);
+            if (e.name() == "system") read_attributes(e, experiment_.systems.emplace_back());
+        }
+        if (const Element e = root.child("length"))
+            experiment_.length_at = e[one_of(e, alternatives(e))].where();
         if (const Element e = root.child("seeds")) seeds(e);
         for (const Element& e : root.children()) {
             if (e.name() == "set") experiment_.settings.push_back(assignment(e));
             if (e.name() == "bind")
                 experiment_.robots.push_back({e["robot"].text() + "=" + e["to"].text(), e["robot"].where()});
             if (e.name() == "at") experiment_.changes.push_back({written(e["when"]), assignment(e)});
-            if (e.name() == "record")
-                experiment_.recordings.push_back({written(e["column"]), whole(e["every"]).value_or(1)});
-            if (e.name() == "plot") experiment_.plots.push_back(written(e["what"]));
+            if (e.name() == "record") read_attributes(e, experiment_.recordings.emplace_back());
+            if (e.name() == "plot") read_attributes(e, experiment_.plots.emplace_back());
             manipulation(e);
         }
         for (const Element& e : root.children("measure")) measure(e);
@@ -47,8 +50,8 @@ class ExperimentReader {
         if (experiment_.systems.empty() && !sweeps_systems() && !has_unknown(root))
             out_.error(root.where(), "<experiment> has no <system>",
                        "name one in <system file=\"...\"/>, or several in <sweep systems=\"...\"/>");
-        if (const Element e = root.child("confidence")) confidence(e);
-        if (const Element e = root.child("halving")) halving(e);
+        if (const Element e = root.child("confidence")) adaptation(e, model::Adaptation::Kind::confidence);
+        if (const Element e = root.child("halving")) adaptation(e, model::Adaptation::Kind::halving);
         model::check_adaptation(experiment_, out_);
         if (const Element e = root.child("exercise")) exercise(e);
         if (count_runs() > max_runs)
@@ -58,18 +61,8 @@ class ExperimentReader {
     }
 
   private:
-    /// The value as a whole number; empty when there is none or when check() has refused it.
-    static std::optional<std::uint64_t> whole(const Value& v) {
-        const auto n = v.number();
-        if (!n || !(*n >= 0 && *n <= 2e9)) return std::nullopt;
-        return static_cast<std::uint64_t>(*n);
-    }
     static model::Expression written(const Value& v) { return {v.text(), v.where()}; }
 
-    /// A path relative to the working directory.
-    std::string file(const Value& v) const {
-        return (std::filesystem::path(experiment_.path).parent_path() / v.view).string();
-    }
     static model::Expression assignment(const Element& e) {
         return {e["parameter"].text() + "=" + e["value"].text(), e["parameter"].where()};
     }
@@ -90,38 +83,28 @@ class ExperimentReader {
             all, [](const Element& child) { return !experiment_format().find(child.name()); });
     }
 
-    /// The one of these attributes that an element has. Reports an error when it has none or several.
-    const char* one_of(const Element& e, std::span<const char* const> names) {
-        const char* found = nullptr;
-        for (const char* name : names)
+    static std::vector<std::string> alternatives(const Element& e) {
+        std::vector<std::string> out;
+        for (const AttributeRule& a : experiment_format().find(e.name())->attributes)
+            if (a.alternative) out.push_back(a.name);
+        return out;
+    }
+    /// The one of these attributes that an element has; empty when it has none. Reports an error when it has
+    /// none or several.
+    std::string one_of(const Element& e, const std::vector<std::string>& names) {
+        std::string found;
+        for (const auto& name : names)
             if (e[name]) {
-                if (found)
+                if (!found.empty())
                     out_.error(e[name].where(),
                                fmt::format("<{}> has both '{}' and '{}'", e.name(), found, name),
                                "keep one of them");
                 found = name;
             }
-        if (!found && !misspelt(e))
+        if (found.empty() && !misspelt(e))
             out_.error(e.where(), fmt::format("<{}> does not say what it is", e.name()),
                        fmt::format("give it one of '{}'", separated(names, "', '")));
         return found;
-    }
-
-    void world(const Element& e) {
-        experiment_.world = file(e["file"]), experiment_.world_at = e["file"].where();
-        experiment_.real_time_factor = e["pace"].number();
-        experiment_.noise = e["noise"].flag(true);
-    }
-
-    void length(const Element& e) {
-        static constexpr std::array names = {"cycles", "seconds", "trials"};
-        const char* kind = one_of(e, names);
-        experiment_.length_at = kind ? e[kind].where() : e.where();
-        experiment_.cycles = whole(e["cycles"]);
-        experiment_.trials = whole(e["trials"]);
-        experiment_.seconds = e["seconds"].number();
-        experiment_.trial_timeout = e["longest-trial"].number().value_or(experiment_.trial_timeout);
-        experiment_.until = written(e["until"]);
     }
 
     void seeds(const Element& e) {
@@ -129,22 +112,22 @@ class ExperimentReader {
         if (listed && (e["first"] || e["count"]))
             out_.error(e["list"].where(), "<seeds> has both a list and a count", "keep one of them");
         experiment_.seeds.clear();
-        const std::uint64_t count = whole(e["count"]).value_or(1);
+        const std::uint64_t count = e["count"].count().value_or(1);
         if (!listed)
             for (std::uint64_t i = 0; i < std::min(count, max_runs + 1); ++i)
-                experiment_.seeds.push_back(whole(e["first"]).value_or(1) + i);
+                experiment_.seeds.push_back(e["first"].count().value_or(1) + i);
         const auto list = expressions(e["list"]);
         if (listed && list.empty())
             out_.error(e["list"].where(), "there are no seeds in the list", "for example list=\"1 2 3\"");
         std::set<int> seen;
-        bool told = false;
+        bool reported = false;
         for (const auto& [word, where] : list) {
             const auto seed = parse_number<int>(word);
             if (!seed || *seed < 0)
                 out_.error(where, fmt::format("'{}' is not a seed", word),
                            "a seed is a whole number, at least 0");
             else {
-                if (!seen.insert(*seed).second && !std::exchange(told, true))
+                if (!seen.insert(*seed).second && !std::exchange(reported, true))
                     out_.error(where, fmt::format("the seed {} is given twice", word),
                                "remove one of them: its runs are equal");
                 experiment_.seeds.push_back(static_cast<std::uint64_t>(*seed));
@@ -155,33 +138,28 @@ class ExperimentReader {
     /// Reads <clamp>, <add> or <multiply>.
     void manipulation(const Element& e) {
         static constexpr std::array modes = {"clamp", "add", "multiply"};
-        static constexpr std::array sources = {"cells", "patterns"};
         const auto mode = std::ranges::find(modes, e.name()) - modes.begin();
-        if (mode == std::ssize(modes) || !one_of(e, sources)) return;
-        model::ManipulationSpec m;
+        if (mode == std::ssize(modes) || one_of(e, alternatives(e)).empty()) return;
+        auto& m = experiment_.manipulations.emplace_back();
         m.mode = static_cast<model::ManipulationSpec::Mode>(mode);
-        m.group = written(e["group"]);
-        m.cells = written(e["cells"]);
-        if (e["patterns"]) m.patterns = {file(e["patterns"]), e["patterns"].where()};
-        m.every = whole(e["every"]).value_or(1), m.step = whole(e["step"]).value_or(1);
-        m.times = whole(e["times"]);
-        m.backwards = e["backwards"].flag(false);
-        m.from = written(e["from"]), m.until = written(e["until"]);
-        experiment_.manipulations.push_back(std::move(m));
+        read_attributes(e, m);
     }
 
     void measure(const Element& e) {
-        const char* kind = one_of(e, model::measure_kinds);
-        if (kind) experiment_.measures.push_back(measure_of(e, kind, "name", experiment_.measures));
+        const auto kind = one_of(e, alternatives(e));
+        if (kind.empty()) return;
+        model::Measure m;
+        read_attributes(e, m);
+        if (m.name.empty() && e["name"])
+            out_.error(m.at, "a measure needs a name", "names are columns of the table of results");
+        read_measure(e, kind, experiment_.measures, m);
+        experiment_.measures.push_back(std::move(m));
     }
 
-    /// The measure that the attribute `kind` describes. Its name differs from those of the `others`.
-    model::Measure measure_of(const Element& e, std::string_view kind, const char* name,
-                              std::span<const model::Measure> others) {
-        model::Measure m;
-        m.name = e[name].text(), m.at = e[name].where(), m.what = written(e[kind]), m.of = written(e["of"]);
-        if (m.name.empty() && e[name])
-            out_.error(m.at, "a measure needs a name", "names are columns of the table of results");
+    /// Reads the attribute `kind` of a measure whose name differs from those of the `others`.
+    void read_measure(const Element& e, const std::string& kind, std::span<const model::Measure> others,
+                      model::Measure& m) {
+        m.what = written(e[kind]), m.of = written(e["of"]);
         m.kind = static_cast<model::Measure::Kind>(std::ranges::find(model::measure_kinds, kind) -
                                                    model::measure_kinds.begin());
         if (e["of"] && m.kind != model::Measure::Kind::robot)
@@ -193,68 +171,55 @@ class ExperimentReader {
                            fmt::format("there is a measure '{}' already, on line {}", m.name, other.at.line),
                            "names are columns of the table of results");
         model::read_trials(m, out_);
-        return m;
     }
 
-    /// The attributes of requirements: measures, and `to` for synapses.
-    static constexpr auto required = [] {
-        std::array<const char*, model::measure_kinds.size() + 1> out{};
-        std::ranges::copy(model::measure_kinds, out.begin());
-        out.back() = "to";
-        return out;
-    }();
-
     void exercise(const Element& e) {
-        model::Exercise exercise{file(e["start"]), e["start"].where(), {}};
+        auto& exercise = experiment_.exercise.emplace();
+        read_attributes(e, exercise);
         std::vector<model::Measure> measures = experiment_.measures;
         for (const Element& child : e.children("require")) {
-            const char* kind = one_of(child, required);
-            if (!kind) continue;
+            auto kinds = alternatives(child);
+            kinds.emplace_back("to");  // the number of synapses
+            const auto kind = one_of(child, kinds);
+            if (kind.empty()) continue;
             model::Requirement r;
-            r.what = child["what"].text(), r.advice = child.text(), r.kind = child["kind"].text();
-            r.at_least = child["at-least"].number(), r.at_most = child["at-most"].number();
-            if (kind == required.back()) {
-                r.to = written(child["to"]), r.from = written(child["from"]);
+            read_attributes(child, r);
+            r.advice = child.text();
+            if (kind == kinds.back()) {
                 if (!r.at_least && !r.at_most) r.at_least = 1;
             } else {
-                r.measure = measure_of(child, kind, "what", measures);
-                measures.push_back(*r.measure);
+                auto& m = measures.emplace_back();
+                m.name = r.what, m.at = child["what"].where();
+                read_measure(child, kind, std::span(measures).first(measures.size() - 1), m);
+                r.measure = m, r.from = {};  // which only synapses have
             }
             if (!r.at_least && !r.at_most)
                 out_.error(child.where(), "<require> gives no bound", "give it 'at-least' or 'at-most'");
             exercise.requirements.push_back(std::move(r));
         }
-        experiment_.exercise = std::move(exercise);
     }
 
-    void confidence(const Element& e) {
-        model::Adaptation a{.measure = written(e["measure"]), .at = e.where()};
-        a.width = e["width"].number(), a.relative_width = e["relative-width"].number();
-        // A width that is wrong has been reported.
-        if ((e["width"] && !a.width) || (e["relative-width"] && !a.relative_width)) return;
-        a.most = whole(e["most"]).value_or(a.most);
-        experiment_.adaptation = std::move(a);
-    }
-
-    void halving(const Element& e) {
+    void adaptation(const Element& e, model::Adaptation::Kind kind) {
         if (experiment_.adaptation)
             out_.error(e.where(), "<halving> and <confidence> exclude each other", "remove one of them");
-        experiment_.adaptation = {.kind = model::Adaptation::Kind::halving,
-                                  .measure = written(e["measure"]),
-                                  .highest = e["keep"].text() != "lowest",
-                                  .at = e.where()};
+        model::Adaptation a;
+        a.kind = kind, a.at = e.where();
+        read_attributes(e, a);
+        // A width that is wrong has been reported.
+        if ((e["width"] && !a.width) || (e["relative-width"] && !a.relative_width)) return;
+        experiment_.adaptation = std::move(a);
     }
 
     /// Reads a sweep of the current axis.
     void sweep(const Element& e) {
-        static constexpr std::array kinds = {"parameter", "systems"}, lists = {"values", "systems"};
-        const char* kind = one_of(e, kinds);
-        if (!kind) return;
-        const char* list = e["systems"] ? one_of(e, lists) : "values";
+        const auto kind = one_of(e, alternatives(e));
+        if (kind.empty()) return;
+        const auto list = e["systems"] ? one_of(e, {"values", "systems"}) : "values";
         model::Sweep s{written(e[kind]), expressions(e[list]), {}, axes_};
         if (e["systems"]) {
             s.parameter.text = "system";
-            for (const Value& word : e[list].words()) s.files.push_back(file(word));
+            for (const Value& word : e[list].words())
+                s.files.push_back(model::resolved(word.text(), word.where()));
         }
         if (s.values.empty() && !misspelt(e))
             out_.error(
@@ -327,6 +292,21 @@ std::optional<model::Experiment> build(const Document* document, Diagnostics& di
 }
 
 }  // namespace
+
+const Format& experiment_format() {
+    static const Format table = [] {
+        return Format{.name = "an experiment file",
+                      .beginning = "<experiment>",
+                      .roots = {"experiment"},
+                      .where_texts_stand = "write a text in the <note>, and a remark in <!-- -->",
+                      .values = {{"text", {}}},
+                      .elements = std::apply(
+                          [](const auto&... element) { return std::vector<ElementRule>{element...}; },
+                          experiment_rows::experiment_elements())}
+            .link();
+    }();
+    return table;
+}
 
 std::optional<model::Experiment> read_experiment(const std::string& path, Diagnostics& diagnostics) {
     return build(open(path, experiment_format(), diagnostics).get(), diagnostics);

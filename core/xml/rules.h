@@ -60,7 +60,9 @@ struct AttributeRule {
     std::string name;
     ValueRule value;
     bool required = false;
-    bool omit_default = false;  ///< whether a value that is the default is not written
+    bool omit_default = false;   ///< whether a value that is the default is not written
+    bool alternative = false;    ///< whether its element has exactly one of several such attributes
+    bool relative_path = false;  ///< whether it is a path from the folder of the file
 };
 
 struct ElementRule;
@@ -78,7 +80,7 @@ struct ElementRule {
     /// The elements that may stand in it, with blanks between them: "Note?:text Process". After a name stands
     /// ? for at most once, ! for once, + for at least once, and nothing for any number; then :KIND, a key of
     /// Format::values, when the element has a value. A :KIND without a name is that of the element itself.
-    std::string_view content = {};
+    std::string content = {};
     std::vector<AttributeRule> attributes = {};
     int choose = 0;        ///< the number of elements in it when they are alternatives, else 0
     bool or_none = false;  ///< whether all alternatives may be absent
@@ -91,9 +93,10 @@ struct ElementRule {
 
 /// A kind of file.
 struct Format {
-    std::string_view name;                ///< with its article: "a system file"
-    std::string_view beginning;           ///< the start tag of such a file: "<System ...>"
-    std::vector<std::string_view> roots;  ///< names of the outermost element; the first one is in the table
+    std::string_view name;            ///< with its article: "a system file"
+    std::string_view beginning = {};  ///< the start tag of such a file: "<System ...>"
+    std::vector<std::string_view> roots =
+        {};  ///< names of the outermost element; the first one is in the table
     std::size_t max_nodes = std::size_t{1} << 20;  ///< elements, attributes and comments of a file
     /// Whether other programs extend the format. Unknown elements then have no effect and give warnings, and
     /// unknown attributes are ignored.
@@ -148,9 +151,12 @@ inline AttributeRule in(std::string unit, AttributeRule rule) {
     rule.value.unit = std::move(unit);
     return rule;
 }
-/// The value that holds where the file does not have the attribute.
-inline AttributeRule otherwise(std::string value, AttributeRule rule) {
-    rule.value.otherwise = std::move(value);
+inline AttributeRule alternative(AttributeRule rule) {
+    rule.alternative = true;
+    return rule;
+}
+inline AttributeRule relative_path(AttributeRule rule) {
+    rule.relative_path = true;
     return rule;
 }
 

@@ -49,8 +49,8 @@ std::vector<AttributeOf<Shape>> window() {
 
 inline auto system_elements() {
     using namespace model;
-    constexpr std::string_view functions = "FunUniform FunLinear FunGaussian FunBlock FunRandom",
-                               populations = "All Region List";
+    constexpr const char *functions = "FunUniform FunLinear FunGaussian FunBlock FunRandom",
+                         *populations = "All Region List";
     // The attributes that the elements of all shapes have.
     const ElementOf<Arborization> spread{
         .attributes = {

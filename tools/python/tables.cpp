@@ -116,7 +116,7 @@ model::Adaptation adaptation_of(const std::string& kind, const py::dict& options
             if (keep != "highest" && keep != "lowest")
                 diagnostics.error({}, fmt::format("halving: keep = '{}' is not possible", keep),
                                   "'highest' or 'lowest'");
-            out.highest = keep != "lowest";
+            out.lowest = keep == "lowest";
         }
     }
     if (out.measure.empty())

@@ -66,7 +66,7 @@ std::vector<std::size_t> ranking(const model::Experiment& e, const RunPlan& plan
         if (plan.seeds(c) < most) continue;
         const auto found = estimate(numbers_of(e, plan, results, c));
         const double mean = found ? found->mean : std::nan("");
-        const double good = e.adaptation->highest ? -mean : mean;
+        const double good = e.adaptation->lowest ? mean : -mean;
         all.emplace_back(std::isfinite(good) ? good : std::numeric_limits<double>::infinity(), c);
     }
     std::ranges::sort(all);  // of equal ones, the first in the plan
@@ -116,7 +116,7 @@ std::string adaptation_note(const model::Experiment& e, const RunPlan& plan,
         for (std::size_t i = 0; i < e.sweeps.size(); ++i)
             values.push_back(fmt::format("{} = {}", e.sweeps[i].parameter.text, plan.values(best)[i]));
         const auto found = estimate(numbers_of(e, plan, results, best));
-        return fmt::format("the {} '{}', {}, is that of {}", a.highest ? "highest" : "lowest", a.measure.text,
+        return fmt::format("the {} '{}', {}, is that of {}", a.lowest ? "lowest" : "highest", a.measure.text,
                            found ? plain_number(found->mean, 4) : "none", separated(values, ", "));
     }
     std::size_t enough = 0;

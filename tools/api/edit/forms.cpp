@@ -77,11 +77,12 @@ void read_values(const json& values, Struct& s) {
             [&]<class T>(T Struct::*member) {
                 if constexpr (std::is_same_v<T, int>)
                     s.*member = whole_from(*it, model::max_extent);
-                else if constexpr (!std::is_enum_v<T>)
+                else if constexpr (std::is_enum_v<T>) {
+                    if (const auto c = std::ranges::find(choices, it->template get<std::string>());
+                        c != choices.end())
+                        s.*member = static_cast<T>(c - choices.begin());
+                } else if constexpr (requires { it->get_to(s.*member); })
                     it->get_to(s.*member);
-                else if (const auto c = std::ranges::find(choices, it->template get<std::string>());
-                         c != choices.end())
-                    s.*member = static_cast<T>(c - choices.begin());
             },
             a.member);
     }

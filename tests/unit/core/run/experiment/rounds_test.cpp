@@ -74,7 +74,7 @@ model::Adaptation until_width(double width, std::uint64_t most = 100) {
 
 model::Adaptation halving(bool highest = true) {
     model::Adaptation out;
-    out.kind = model::Adaptation::Kind::halving, out.highest = highest;
+    out.kind = model::Adaptation::Kind::halving, out.lowest = !highest;
     return out;
 }
 
