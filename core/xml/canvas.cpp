@@ -1,83 +1,64 @@
 #include "core/xml/canvas.h"
 
-#include <charconv>
+#include <cmath>
 
 #include <fmt/format.h>
-#include <tinyxml2.h>
 
+#include "core/base/number.h"
+#include "core/base/separated.h"
+#include "core/model/names.h"
+#include "core/xml/check.h"
 #include "core/xml/source_tree.h"
+#include "core/xml/system_elements.h"
 
 namespace forage::xml {
 namespace {
 
-constexpr std::string_view canvas_blanks = " \t\r\n", canvas_prefix = "forage:";
+/// The parts with their attributes in the order in which they are written. The doc of a part says where it
+/// stands.
+struct CanvasElements {
+    using Comment = model::CanvasComment;
+    ElementOf<Comment> id{.attributes = {{&Comment::id, required(text("id", ""))}}};
+    ElementOf<model::Icon> box{.attributes = {{&model::Icon::x, rows::coordinate("x", "")},
+                                              {&model::Icon::y, rows::coordinate("y", "")},
+                                              {&model::Icon::width, required(whole("width", "", 1))},
+                                              {&model::Icon::height, required(whole("height", "", 1))}}};
+    ElementOf<Comment> look{.attributes = {{&Comment::color, omit_default(text("color", ""))},
+                                           {&Comment::text, text("text", "")}}};
+    ElementOf<model::Phantom> phantom{.name = "forage:phantom",
+                                      .doc = "in a <Process>",
+                                      .attributes = {{&model::Phantom::group, required(text("group", ""))},
+                                                     {&model::Phantom::x, rows::coordinate("x", "")},
+                                                     {&model::Phantom::y, rows::coordinate("y", "")}}};
+    ElementOf<PageVertices> vertices{
+        .name = "forage:vertices",
+        .doc = "in a <DiagramLine>",
+        .attributes = {{&PageVertices::of_target, required(choice("page", "", {"source", "target"}))}},
+        .further_attributes = {required(text("points", ""))}};
+    Format format = [this] {
+        ElementRule comment{"forage:comment", "in a <System> or <Process>"};
+        for (const auto& rules : {id.rules(), box.rules(), look.rules()})
+            comment.attributes.insert(comment.attributes.end(), rules.begin(), rules.end());
+        return Format{.name = "a part of the diagram", .elements = {comment, phantom, vertices}}.link();
+    }();
+};
 
-std::optional<int> canvas_number(std::string_view text, int lowest = -model::farthest_coordinate) {
-    int out = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-    if (error != std::errc() || end != text.data() + text.size() || out < lowest ||
-        out > model::farthest_coordinate)
-        return std::nullopt;
-    return out;
+const CanvasElements& canvas() {
+    static const CanvasElements elements;
+    return elements;
 }
 
 std::optional<std::vector<model::Point>> canvas_points(std::string_view list) {
     std::vector<model::Point> out;
-    while (true) {
-        const auto from = list.find_first_not_of(canvas_blanks);
-        if (from == list.npos) return out;
-        list.remove_prefix(from);
-        const auto word = list.substr(0, list.find_first_of(canvas_blanks));
-        list.remove_prefix(word.size());
+    for (const auto word : words(list)) {
         const auto comma = std::min(word.find(','), word.size() - 1);
-        const auto x = canvas_number(word.substr(0, comma)), y = canvas_number(word.substr(comma + 1));
-        if (!x || !y) return std::nullopt;
+        const auto x = parse_number<int>(word.substr(0, comma)),
+                   y = parse_number<int>(word.substr(comma + 1));
+        for (const auto& v : {x, y})
+            if (!v || std::abs(*v) > model::farthest_coordinate) return std::nullopt;
         out.push_back({*x, *y, {}});
     }
-}
-
-/// The attributes of an element, of which canvas_part_of() takes those that it knows.
-struct CanvasAttributes {
-    const tinyxml2::XMLElement& element;
-    int taken = 0;
-    bool right = true;
-
-    std::string text(const char* name, bool required = true) {
-        const char* value = element.Attribute(name);
-        taken += value != nullptr;
-        right &= value || !required;
-        return value ? value : "";
-    }
-    int number(const char* name, int lowest = -model::farthest_coordinate) {
-        const auto value = canvas_number(text(name), lowest);
-        right &= value.has_value();
-        return value.value_or(0);
-    }
-    bool done() const {
-        int all = 0;
-        for (const auto* a = element.FirstAttribute(); a; a = a->Next()) ++all;
-        return right && taken == all;
-    }
-};
-
-std::optional<CanvasPart> canvas_part_of(CanvasAttributes in) {
-    const std::string_view name = in.element.Name();
-    std::optional<CanvasPart> out;
-    if (name == "forage:comment") {
-        model::CanvasComment c;
-        c.id = in.text("id");
-        c.box = {in.number("x"), in.number("y"), in.number("width", 1), in.number("height", 1)};
-        c.color = in.text("color", false), c.text = in.text("text", false);
-        out = std::move(c);
-    } else if (name == "forage:phantom") {
-        out = model::Phantom{in.text("group"), in.number("x"), in.number("y")};
-    } else if (name == "forage:vertices") {
-        const auto page = in.text("page");
-        auto list = canvas_points(in.text("points"));
-        if ((page == "source" || page == "target") && list)
-            out = PageVertices{page == "source", *std::move(list)};
-    }
-    return in.done() ? out : std::nullopt;
+    return out;
 }
 
 std::string canvas_attribute(std::string_view name, std::string_view value) {
@@ -92,55 +73,71 @@ std::string canvas_attribute(std::string_view name, std::string_view value) {
             inside.replace(at, 1, "&#45;");
     return fmt::format(" {}=\"{}\"", name, inside);
 }
-std::string canvas_attribute(std::string_view name, int value) {
-    return canvas_attribute(name, std::to_string(value));
+template <class Struct>
+std::string canvas_attributes(const ElementOf<Struct>& element, const Struct& s) {
+    std::string out;
+    for (const auto& a : element.attributes)
+        if (const auto value = value_of(a, s); !a.rule.omit_default || value != value_of(a, Struct()))
+            out += canvas_attribute(a.rule.name, to_text(value));
+    return out;
 }
 
 std::string written(const model::CanvasComment& c) {
-    std::string out = " forage:comment" + canvas_attribute("id", c.id) + canvas_attribute("x", c.box.x) +
-                      canvas_attribute("y", c.box.y) + canvas_attribute("width", c.box.width) +
-                      canvas_attribute("height", c.box.height);
-    if (!c.color.empty()) out += canvas_attribute("color", c.color);
-    return out + canvas_attribute("text", c.text) + " ";
+    return "forage:comment" + canvas_attributes(canvas().id, c) + canvas_attributes(canvas().box, c.box) +
+           canvas_attributes(canvas().look, c);
 }
 std::string written(const model::Phantom& p) {
-    return " forage:phantom" + canvas_attribute("group", p.group) + canvas_attribute("x", p.x) +
-           canvas_attribute("y", p.y) + " ";
+    return canvas().phantom.name + canvas_attributes(canvas().phantom, p);
 }
 std::string written(const PageVertices& v) {
     std::string list;
     for (const auto& p : v.points) list += fmt::format("{}{},{}", list.empty() ? "" : " ", p.x, p.y);
-    return " forage:vertices" + canvas_attribute("page", v.of_source ? "source" : "target") +
-           canvas_attribute("points", list) + " ";
+    return canvas().vertices.name + canvas_attributes(canvas().vertices, v) +
+           canvas_attribute("points", list);
 }
 
 }  // namespace
 
-bool begins_canvas_part(std::string_view comment) {
-    comment.remove_prefix(std::min(comment.find_first_not_of(canvas_blanks), comment.size()));
-    return comment.starts_with(canvas_prefix);
-}
+bool begins_canvas_part(std::string_view comment) { return model::trim(comment).starts_with("forage:"); }
 
 std::optional<CanvasPart> read_canvas_part(std::string_view comment) {
     if (!begins_canvas_part(comment)) return std::nullopt;
-    comment.remove_prefix(comment.find_first_not_of(canvas_blanks));
-    comment = comment.substr(0, comment.find_last_not_of(canvas_blanks) + 1);
-    const std::string element = fmt::format("<{}/>", comment);
-    tinyxml2::XMLDocument document;
-    if (document.Parse(element.data(), element.size()) != tinyxml2::XML_SUCCESS) return std::nullopt;
-    const auto* root = document.RootElement();
-    if (!root || root != document.LastChild() || root->FirstChild()) return std::nullopt;
-    return canvas_part_of({*root});
+    Diagnostics mistakes;
+    const auto document = Document::parse({}, fmt::format("<{}/>", model::trim(comment)), {}, 100, mistakes);
+    const auto e = document ? document->root() : Element();
+    const auto* rule = e ? canvas().format.find(e.name()) : nullptr;
+    if (!rule || !check(e, *rule, canvas().format, mistakes) || mistakes.failed()) return std::nullopt;
+    if (rule->name == canvas().phantom.name) {
+        model::Phantom phantom;
+        canvas().phantom.read(e, phantom);
+        return phantom;
+    }
+    if (rule->name == canvas().vertices.name) {
+        PageVertices vertices;
+        canvas().vertices.read(e, vertices);
+        auto points = canvas_points(e["points"].view);
+        if (!points) return std::nullopt;
+        vertices.points = *std::move(points);
+        return vertices;
+    }
+    model::CanvasComment out;
+    canvas().id.read(e, out), canvas().box.read(e, out.box), canvas().look.read(e, out);
+    return out;
 }
 
 std::string write_canvas_part(const CanvasPart& part) {
-    return std::visit([](const auto& p) { return written(p); }, part);
+    return " " + std::visit([](const auto& p) { return written(p); }, part) + " ";
 }
 
 std::string canvas_forms() {
-    return "there are forage:comment with id, x, y, width, height, color and text in a <System> or "
-           "<Process>, forage:phantom with group, x and y in a <Process>, and forage:vertices with page and "
-           "points in a <DiagramLine>";
+    std::vector<std::string> forms;
+    for (const auto& e : canvas().format.elements) {
+        auto names = model::names_of(e.attributes);
+        const auto last = names.back();
+        names.pop_back();
+        forms.push_back(fmt::format("{} with {} and {} {}", e.name, separated(names, ", "), last, e.doc));
+    }
+    return fmt::format("there are {}, {}, and {}", forms[0], forms[1], forms[2]);
 }
 
 }  // namespace forage::xml

@@ -17,7 +17,7 @@ namespace forage::xml {
 
 /// Vertices of a connection between processes, on the page of its source or of its target.
 struct PageVertices {
-    bool of_source = true;
+    bool of_target = false;
     std::vector<model::Point> points;
 };
 using CanvasPart = std::variant<model::CanvasComment, model::Phantom, PageVertices>;

@@ -9,6 +9,7 @@
 #include "core/base/named_file.h"
 #include "core/base/number.h"
 #include "core/base/separated.h"
+#include "core/model/names.h"
 #include "core/types/parameter.h"
 
 namespace forage::xml {
@@ -39,13 +40,6 @@ struct Subject {
         return meant.empty() ? description() : fmt::format("did you mean '{}'?", meant);
     }
 };
-
-template <class Rules>
-std::vector<std::string> names_of(const Rules& rules) {
-    std::vector<std::string> out;
-    for (const auto& r : rules) out.push_back(r.name);
-    return out;
-}
 
 class Checker {
   public:
@@ -115,7 +109,7 @@ class Checker {
                        fmt::format("<{}> holds {}, it needs {}", e.name(),
                                    chosen ? "only one element" : "no element", amount(rule)),
                        fmt::format("{} of <{}>", rule.choose > 1 ? "source, then target, each one" : "one",
-                                   separated(names_of(rule.children), ">, <")));
+                                   separated(model::names_of(rule.children), ">, <")));
         for (std::size_t i = 0; i < count.size(); ++i)
             if (const ChildRule& c = rule.children[i]; count[i] < c.least)
                 structural(e.where(), fmt::format("<{}> needs the element <{}>", e.name(), c.name),
@@ -150,7 +144,7 @@ class Checker {
     }
 
     std::string place_hint(const ElementRule& parent, const Element& e) const {
-        const std::vector<std::string> children = names_of(parent.children);
+        const std::vector<std::string> children = model::names_of(parent.children);
         std::vector<std::string_view> homes;
         for (const auto& other : format_.elements)
             for (const auto& c : other.children)
@@ -169,7 +163,7 @@ class Checker {
             if (const AttributeRule* r = rule.attribute(a.name)) {
                 value(a.value, a.name, r->value);
             } else if (!format_.open) {
-                const std::vector<std::string> known = names_of(rule.attributes);
+                const std::vector<std::string> known = model::names_of(rule.attributes);
                 meant.emplace_back(nearest(a.name, known));
                 out_.unknown(
                     e.document().place(a.at), fmt::format("<{}> has no attribute '{}'", e.name(), a.name),

@@ -25,16 +25,15 @@ std::string place_of(const SourceElement& e) {
     return std::string(e.name);
 }
 
-/// What two elements share that are the same one before and after a change. Elements without a name of their
-/// own are the same when their texts are.
+/// Whether the first attribute that the writer gives an element is its id or its name.
+bool has_own_name(std::string_view name) {
+    return is_item(name) || is_canvas_part(name) || name == "Parameter" || name == "XRef";
+}
+
+/// What two elements of the writer share that are the same one before and after a change. Elements without a
+/// name of their own are the same when their texts are.
 std::string key_of(std::string_view text, const SourceElement& e) {
-    if (is_item(e.name)) return std::string(e.name) + " " + std::string(e.value("id"));
-    if (is_canvas_part(e.name)) {
-        const auto name = e.name == "forage:comment" ? "id" : e.name == "forage:phantom" ? "group" : "page";
-        return std::string(e.name) + " " + std::string(e.value(name));
-    }
-    if (e.name == "Parameter" || e.name == "XRef" || e.name == "XRefHolder")
-        return std::string(e.name) + " " + std::string(e.value("name"));
+    if (has_own_name(e.name)) return std::string(e.name) + " " + std::string(e.attributes.front().value);
     if (e.name == "Point" || e.name == "Tuple") return std::string(e.whole.of(text));
     return place_of(e);
 }
@@ -154,15 +153,12 @@ class Patcher {
             std::vector<int> gone, come;
             for (; it != pairs.end() && (it->first < 0 || it->second < 0); ++it)
                 it->first >= 0 ? gone.push_back(it->first) : come.push_back(it->second);
-            std::vector<int> partner(gone.size(), -1);
             std::size_t from = 0;
             for (const int j : come) {
                 const auto& e = wanted[static_cast<std::size_t>(j)];
-                const auto keeps_name =
-                    is_item(e.name) || is_canvas_part(e.name) || e.name == "Parameter" || e.name == "XRef";
                 std::size_t g = from;
-                while (g < gone.size() &&
-                       (keeps_name || place_of(old[static_cast<std::size_t>(gone[g])]) != place_of(e)))
+                while (g < gone.size() && (has_own_name(e.name) ||
+                                           place_of(old[static_cast<std::size_t>(gone[g])]) != place_of(e)))
                     ++g;
                 if (g < gone.size()) {
                     for (; from < g; ++from) out.emplace_back(gone[from], -1);

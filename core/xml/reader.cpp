@@ -26,36 +26,27 @@ std::optional<CanvasPart> canvas_part(const Comment& comment) {
     return part;
 }
 
-/// Comments by the process, group or connection before which they stand. Other comments belong to the item
-/// that they stand in, or to the file's root.
-std::map<Element, std::vector<std::string>> comments_by_owner(const Document& document) {
-    const auto is_owner = [](Element e) {
-        return e.name() == "Process" || e.name() == "Group" || e.name() == "Connection";
-    };
-    std::map<Element, std::vector<std::string>> out;
-    for (const Comment& c : document.comments()) {
-        if (canvas_part(c)) continue;
-        Element owner = c.before && is_owner(c.before) ? c.before : c.parent;
-        while (owner && !is_owner(owner)) owner = owner.parent();
-        out[owner ? owner : document.root()].emplace_back(c.text);
-    }
-    return out;
-}
-
 /// Builds the model from a document in which check() has found no missing element.
 class Reader {
   public:
-    Reader(const Document& document, Diagnostics& out)
-        : document_(document), out_(out), comments_(comments_by_owner(document)) {
-        for (const Comment& c : document.comments())
+    Reader(const Document& document, Diagnostics& out) : document_(document), out_(out) {
+        const auto is_owner = [](Element e) {
+            return e.name() == "Process" || e.name() == "Group" || e.name() == "Connection";
+        };
+        for (const Comment& c : document.comments()) {
             if (auto part = canvas_part(c)) {
                 if (auto* comment = std::get_if<model::CanvasComment>(&*part))
                     comment->at = document.place(c.at);
                 canvas_[c.parent].push_back(*std::move(part));
-            } else if (begins_canvas_part(c.text)) {
+                continue;
+            }
+            if (begins_canvas_part(c.text))
                 out.warning(document.place(c.at), "this is no part of the diagram that Forage can read",
                             canvas_forms());
-            }
+            Element owner = c.before && is_owner(c.before) ? c.before : c.parent;
+            while (owner && !is_owner(owner)) owner = owner.parent();
+            comments_[owner ? owner : document.root()].emplace_back(c.text);
+        }
     }
 
     model::System system() {
@@ -251,64 +242,49 @@ class Reader {
             c.line = of<model::Line>(l);
             c.line->vertices = points(l);
             for (auto& v : canvas_parts<PageVertices>(l))
-                (v.of_source ? c.line->source_vertices : c.line->target_vertices) = std::move(v.points);
+                (v.of_target ? c.line->target_vertices : c.line->source_vertices) = std::move(v.points);
         }
         return c;
     }
 
     const Document& document_;
     Diagnostics& out_;
-    const std::map<Element, std::vector<std::string>> comments_;
+    /// By the process, group or connection before which they stand. Other comments belong to the item that
+    /// they stand in, or to the file's root.
+    std::map<Element, std::vector<std::string>> comments_;
     std::map<Element, std::vector<CanvasPart>> canvas_;  ///< by the element in which they stand
 };
 
-/// Reads the files of linked processes, which replace the processes in the system's own file.
-class Linker {
-  public:
-    Linker(model::System& system, const std::string& system_path, Diagnostics& out)
-        : system_(system), directory_(std::filesystem::path(system_path).parent_path()), out_(out) {}
-
-    void run() {
-        for (auto& p : system_.processes)
-            if (!p.path.empty()) link(p);
+/// Reads the file of a linked process, which replaces the process in the system's own file.
+void link(model::Process& place, model::System& system, Diagnostics& out) {
+    const auto file = model::resolved(place.path, place.path_at);
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file, ignored)) {
+        out.error(
+            place.path_at,
+            fmt::format("process '{}' is linked to '{}', which cannot be read", place.name, place.path),
+            fmt::format("the path is relative to the system file: '{}'; empty it to use what this file says",
+                        file));
+        return;
     }
-
-  private:
-    void link(model::Process& place) {
-        const auto file = (directory_ / place.path).string();
-        std::error_code ignored;
-        if (!std::filesystem::is_regular_file(file, ignored)) {
-            out_.error(
-                place.path_at,
-                fmt::format("process '{}' is linked to '{}', which cannot be read", place.name, place.path),
-                fmt::format(
-                    "the path is relative to the system file: '{}'; empty it to use what this file says",
-                    file));
-            return;
-        }
-        auto content = read_process(file, out_);
-        if (!content) return;
-        if (!content->process.path.empty()) {
-            out_.error(content->process.path_at, "the process of a process file is linked itself",
-                       "a linked process cannot lead to another file: empty 'path'");
-            return;
-        }
-        content->process.path = place.path;
-        content->process.path_at = place.path_at;
-        if (place.icon) content->process.icon = place.icon;
-        content->process.phantoms = place.phantoms;  // its connections to others are in this file, too
-        content->process.placeholder.push_back(std::move(place));
-        place = std::move(content->process);
-        for (auto& c : content->connections) {
-            c.linked = true;
-            system_.connections.push_back(std::move(c));
-        }
+    auto content = read_process(file, out);
+    if (!content) return;
+    if (!content->process.path.empty()) {
+        out.error(content->process.path_at, "the process of a process file is linked itself",
+                  "a linked process cannot lead to another file: empty 'path'");
+        return;
     }
-
-    model::System& system_;
-    std::filesystem::path directory_;
-    Diagnostics& out_;
-};
+    content->process.path = place.path;
+    content->process.path_at = place.path_at;
+    if (place.icon) content->process.icon = place.icon;
+    content->process.phantoms = place.phantoms;  // its connections to others are in this file, too
+    content->process.placeholder.push_back(std::move(place));
+    place = std::move(content->process);
+    for (auto& c : content->connections) {
+        c.linked = true;
+        system.connections.push_back(std::move(c));
+    }
+}
 
 /// The model that `read` makes from a document. Empty when the document has errors after which its meaning is
 /// not clear, or when `read` has found further errors.
@@ -322,11 +298,11 @@ auto build(const Document* document, const Format& format, Diagnostics& diagnost
     return out;
 }
 
-std::optional<model::System> build_system(const std::string& path, const Document* document,
-                                          Diagnostics& diagnostics) {
+std::optional<model::System> build_system(const Document* document, Diagnostics& diagnostics) {
     return build(document, system_format(), diagnostics, [&](const Document& d) {
         model::System system = Reader(d, diagnostics).system();
-        Linker(system, path, diagnostics).run();
+        for (auto& p : system.processes)
+            if (!p.path.empty()) link(p, system, diagnostics);
         return system;
     });
 }
@@ -334,11 +310,12 @@ std::optional<model::System> build_system(const std::string& path, const Documen
 }  // namespace
 
 std::optional<model::System> read_system(const std::string& path, Diagnostics& diagnostics) {
-    return build_system(path, open(path, system_format(), diagnostics).get(), diagnostics);
+    return build_system(open(path, system_format(), diagnostics).get(), diagnostics);
 }
 
 std::optional<model::System> parse_system(std::string path, std::string text, Diagnostics& diagnostics) {
-    return build_system(path, open(path, std::move(text), system_format(), diagnostics).get(), diagnostics);
+    return build_system(open(std::move(path), std::move(text), system_format(), diagnostics).get(),
+                        diagnostics);
 }
 
 std::optional<model::ProcessFile> read_process(const std::string& path, Diagnostics& diagnostics) {

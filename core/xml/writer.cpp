@@ -173,9 +173,9 @@ class Writer : Printer {
         if (c.line) {
             begin(*c.line);
             for (const auto& v : c.line->vertices) leaf_of(v);
-            for (const bool of_source : {true, false})
-                if (const auto& v = of_source ? c.line->source_vertices : c.line->target_vertices; !v.empty())
-                    comment(write_canvas_part(PageVertices{of_source, v}));
+            for (const bool of_target : {false, true})
+                if (const auto& v = of_target ? c.line->target_vertices : c.line->source_vertices; !v.empty())
+                    comment(write_canvas_part(PageVertices{of_target, v}));
             close();
         }
         close();
