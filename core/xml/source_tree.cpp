@@ -2,109 +2,10 @@
 
 #include <algorithm>
 
-#include "core/xml/canvas.h"
-
 namespace forage::xml {
 namespace {
 
 constexpr std::string_view spaces = " \t\r\n";
-
-/// Scans a text that is well-formed.
-class SourceScanner {
-  public:
-    explicit SourceScanner(std::string_view text) : text_(text) {}
-
-    SourceElement run() {
-        SourceElement outside;
-        content(outside);
-        return outside.children.empty() ? SourceElement() : std::move(outside.children.front());
-    }
-
-  private:
-    bool at(std::string_view what) const { return text_.substr(pos_).starts_with(what); }
-    std::size_t find(std::string_view what) const { return std::min(text_.find(what, pos_), text_.size()); }
-    void skip_to(std::string_view end) { pos_ = std::min(find(end) + end.size(), text_.size()); }
-
-    /// Reads up to the end tag of `parent`, or the end of the text.
-    void content(SourceElement& parent) {
-        while ((pos_ = find("<")) < text_.size() && !at("</")) {
-            const std::size_t begin = pos_;
-            if (at("<!--")) {
-                skip_to("-->");
-                const Span comment{begin, pos_};
-                if (const auto inside = comment.of(text_);
-                    inside.size() > 7 && read_canvas_part(inside.substr(4, inside.size() - 7)))
-                    parent.children.push_back(canvas_part(comment));
-                else
-                    parent.comments.push_back(comment);
-            } else if (at("<![CDATA[")) {
-                skip_to("]]>");
-            } else if (at("<?")) {
-                skip_to("?>");
-            } else if (at("<!")) {
-                skip_to(">");
-            } else {
-                parent.children.push_back(element());
-            }
-        }
-    }
-
-    std::size_t skip(std::string_view what) const {
-        return std::min(text_.find_first_not_of(what, pos_), text_.size());
-    }
-
-    SourceElement canvas_part(Span comment) {
-        pos_ = comment.begin + 4;
-        pos_ = skip(spaces);
-        SourceElement e;
-        name_and_attributes(e, "-->", "-->");
-        e.closed = false;
-        e.whole = e.tag = comment;
-        e.content = {comment.end, comment.end};
-        pos_ = comment.end;
-        return e;
-    }
-
-    SourceElement element() {
-        SourceElement e;
-        e.whole.begin = e.tag.begin = pos_++;
-        name_and_attributes(e, ">", "/>");
-        e.closed = at(">");
-        pos_ = e.tag.end = std::min(pos_ + (e.closed ? 1 : 2), text_.size());
-        e.content = {pos_, pos_};
-        if (e.closed) {
-            content(e);
-            e.content.end = pos_;
-            skip_to(">");
-        }
-        e.whole.end = pos_;
-        return e;
-    }
-
-    /// Reads from the name up to one of the two ends of the tag.
-    void name_and_attributes(SourceElement& e, std::string_view end, std::string_view other_end) {
-        const std::size_t name = pos_;
-        pos_ = std::min(text_.find_first_of(" \t\r\n/>", pos_), text_.size());
-        e.name = text_.substr(name, pos_ - name);
-        while ((pos_ = skip(spaces)) < text_.size() && !at(end) && !at(other_end)) {
-            SourceAttribute a;
-            a.whole.begin = pos_;
-            const std::size_t from = pos_;
-            pos_ = std::min(text_.find_first_of(" \t\r\n=", pos_), text_.size());
-            a.name = text_.substr(from, pos_ - from);
-            pos_ = std::min(text_.find_first_of("\"'", pos_), text_.size());
-            if (pos_ >= text_.size()) break;
-            const char quote = text_[pos_++];
-            a.inside = {pos_, std::min(text_.find(quote, pos_), text_.size())};
-            a.value = a.inside.of(text_);
-            pos_ = a.whole.end = std::min(a.inside.end + 1, text_.size());
-            e.attributes.push_back(a);
-        }
-    }
-
-    std::string_view text_;
-    std::size_t pos_ = 0;
-};
 
 /// The end of the line of `at` when only blanks stand between them, after its line end; otherwise npos.
 std::size_t line_end(std::string_view text, std::size_t at) {
@@ -124,8 +25,6 @@ std::string_view SourceElement::value(std::string_view wanted) const {
     const auto* found = attribute(wanted);
     return found ? found->value : std::string_view();
 }
-
-SourceElement scan(std::string_view text) { return SourceScanner(text).run(); }
 
 LineStart line_start(std::string_view text, std::size_t at) {
     const auto before = text.substr(0, at).find_last_not_of(" \t");

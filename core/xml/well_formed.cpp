@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cctype>
 #include <charconv>
+#include <limits>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "core/base/utf8.h"
+#include "core/xml/canvas.h"
+#include "core/xml/source_tree.h"
 
 namespace forage::xml {
 namespace {
@@ -18,14 +21,21 @@ class Scanner {
   public:
     Scanner(const Document& document, std::string_view beginning, std::size_t max_nodes,
             Diagnostics& diagnostics)
-        : document_(document),
+        : document_(&document),
           text_(document.source->text),
           beginning_(beginning),
           max_nodes_(max_nodes),
-          diagnostics_(diagnostics) {}
+          diagnostics_(&diagnostics) {}
+    explicit Scanner(std::string_view text) : text_(text) {}
 
     std::optional<std::string_view> run() {
         return characters() && content() ? std::optional(root_) : std::nullopt;
+    }
+    /// The outermost element of a text without faults.
+    SourceElement tree() {
+        content();
+        auto& outermost = open_.front().children;
+        return outermost.empty() ? SourceElement() : std::move(outermost.front());
     }
 
   private:
@@ -40,12 +50,13 @@ class Scanner {
     }
 
     bool fail(std::size_t offset, std::string message, std::string hint = {}) {
-        diagnostics_.error(document_.place(text_.data() + std::min(offset, text_.size())), std::move(message),
-                           std::move(hint));
+        if (document_)
+            diagnostics_->error(document_->place(text_.data() + std::min(offset, text_.size())),
+                                std::move(message), std::move(hint));
         return false;
     }
     bool fail_whole(std::string message, std::string hint) {
-        diagnostics_.error({document_.source, 0, 0}, std::move(message), std::move(hint));
+        if (document_) diagnostics_->error({document_->source, 0, 0}, std::move(message), std::move(hint));
         return false;
     }
     std::string begins() const { return fmt::format("a file of this kind begins with {}", beginning_); }
@@ -99,8 +110,8 @@ class Scanner {
             pos_ = open;
             if (pos_ < text_.size() && !markup()) return false;
         }
-        if (!open_.empty()) {
-            const std::string_view last = open_.back();
+        if (open_.size() > 1) {
+            const std::string_view last = open_.back().name;
             return fail(offset(last) - 1, fmt::format("<{}> is not closed before the file ends", last),
                         fmt::format("is the file complete? A </{}> is missing", last));
         }
@@ -110,7 +121,7 @@ class Scanner {
     bool plain_text(std::size_t from, std::size_t to) {
         const std::size_t first = text_.find_first_not_of(blanks, from);
         if (first >= to) return true;
-        if (open_.empty())
+        if (open_.size() == 1)
             return fail(
                 first,
                 root_.empty() ? "there is text before the first element"
@@ -168,10 +179,11 @@ class Scanner {
                 return fail(start + 4 + std::min(dashes, inside.size() - 1),
                             "two dashes within a comment, which XML does not allow",
                             "write one dash, or a blank between them");
+            if (!document_) keep_comment({start, pos_}, inside);
             return true;
         }
         if (at("<![CDATA["))
-            return open_.empty()
+            return open_.size() == 1
                        ? fail(pos_, "there is text outside of the first element")
                        : skip("<![CDATA[", "]]>", "the CDATA section that begins here is not closed");
         if (at("<!")) {
@@ -202,56 +214,84 @@ class Scanner {
         if (closes.empty() || !at(">"))
             return fail(start, "a damaged end tag", "an end tag is written </Name>");
         ++pos_;
-        if (open_.empty()) return fail(start, fmt::format("</{}> closes nothing", closes));
-        const std::string_view last = open_.back();
+        if (open_.size() == 1) return fail(start, fmt::format("</{}> closes nothing", closes));
+        const std::string_view last = open_.back().name;
         if (last != closes) {
-            const bool is_open = std::ranges::find(open_, closes) != open_.end();
+            const bool is_open = std::ranges::find(open_, closes, &SourceElement::name) != open_.end();
             return fail(start,
                         fmt::format("</{}> comes before <{}> of line {} is closed", closes, last,
-                                    document_.place(last.data()).line),
+                                    document_ ? document_->place(last.data()).line : 0),
                         is_open ? fmt::format("close it with </{}>, or end its start tag with '/>'", last)
                                 : fmt::format("no <{}> is open here; is </{}> meant?", closes, last));
         }
+        auto element = std::move(open_.back());
         open_.pop_back();
+        element.content.end = start;
+        close(std::move(element));
         return true;
+    }
+
+    /// Adds an element that ends here to the one around it.
+    void close(SourceElement element) {
+        element.whole.end = pos_;
+        if (!document_) open_.back().children.push_back(std::move(element));
+    }
+    /// Adds a comment, or the part of the diagram in it, to the element around it.
+    void keep_comment(Span comment, std::string_view inside) {
+        if (!read_canvas_part(inside)) return open_.back().comments.push_back(comment);
+        SourceElement e;
+        pos_ = comment.begin + 4;
+        skip_blanks();
+        e.name = name();
+        for (skip_blanks(); !at("-->") && attribute(e, 1); skip_blanks()) {
+        }
+        pos_ = comment.end;
+        e.closed = false;
+        e.tag = comment, e.content = {pos_, pos_}, e.whole.begin = comment.begin;
+        close(std::move(e));
     }
 
     bool start_tag() {
         const std::size_t start = pos_++;
         const std::string_view tag = name();
         if (tag.empty()) return fail(start, "a '<' that begins no element", "a '<' itself is written &lt;");
-        if (open_.empty() && !root_.empty())
+        if (open_.size() == 1 && !root_.empty())
             return fail(start, fmt::format("<{}> stands after the end of <{}>", tag, root_),
                         "a file holds one outermost element");
-        if (open_.size() >= deepest)
+        if (open_.size() > deepest)
             return fail(start, fmt::format("<{}> is nested more than {} elements deep", tag, deepest));
         if (!counted(start)) return false;
         if (root_.empty()) root_ = tag;
-        seen_.clear(), last_value_ = {};
+        SourceElement e;
+        e.name = tag, e.whole.begin = e.tag.begin = start;
         while (true) {
             const std::size_t gap = skip_blanks();
-            if (at("/>")) return pos_ += 2, true;
-            if (at(">")) {
-                ++pos_;
-                open_.push_back(tag);
+            e.closed = at(">");
+            if (e.closed || at("/>")) {
+                pos_ = e.tag.end = pos_ + (e.closed ? 1 : 2);
+                e.content = {pos_, pos_};
+                e.closed ? open_.push_back(std::move(e)) : close(std::move(e));
                 return true;
             }
             if (pos_ >= text_.size() || at("<"))
                 return fail(
                     start, fmt::format("the start tag <{}> is not closed", tag),
                     pos_ >= text_.size() ? "is the file complete?" : "a start tag ends with '>' or '/>'");
-            if (!attribute(tag, gap)) return false;
+            if (!attribute(e, gap)) return false;
         }
     }
 
-    bool attribute(std::string_view tag, std::size_t gap) {
+    /// Reads an attribute of the element, after a gap of so many blanks.
+    bool attribute(SourceElement& e, std::size_t gap) {
+        const std::string_view tag = e.name;
         const std::size_t start = pos_;
         const std::string_view attribute = name();
         // When a closing quote is missing, the first quote of the next value closes instead, and the text of
         // that value stands where a name should be.
-        if ((attribute.empty() || gap == 0) && last_value_.find('=') != std::string_view::npos)
-            return fail(offset(last_value_) - 1,
-                        fmt::format("the value of '{}' has no closing quote", seen_.back()),
+        if (auto& all = e.attributes; (attribute.empty() || gap == 0) && !all.empty() &&
+                                      all.back().value.find('=') != std::string_view::npos)
+            return fail(offset(all.back().value) - 1,
+                        fmt::format("the value of '{}' has no closing quote", all.back().name),
                         "attributes are written name=\"value\"");
         if (attribute.empty())
             return fail(start, fmt::format("no attribute of <{}> can begin here", tag),
@@ -259,11 +299,11 @@ class Scanner {
         if (gap == 0)
             return fail(start, fmt::format("there is no blank before the attribute '{}'", attribute),
                         "attributes are written name=\"value\", with a blank between them");
-        if (std::ranges::find(seen_, attribute) != seen_.end())
+        if (e.attribute(attribute))
             return fail(start, fmt::format("<{}> has the attribute '{}' twice", tag, attribute),
                         "remove one of them");
         constexpr std::size_t most = 1000;  // each is compared with all previous ones
-        if (seen_.size() >= most)
+        if (e.attributes.size() >= most)
             return fail(start, fmt::format("<{}> has more than {} attributes", tag, most));
         if (!counted(start)) return false;
         skip_blanks();
@@ -282,8 +322,7 @@ class Scanner {
             return fail(from - 1, fmt::format("the value of '{}' has no closing quote", attribute),
                         bracket < to ? "or a '<' in it, which is written &lt;" : "is the file complete?");
         pos_ = to + 1;
-        last_value_ = text_.substr(from, to - from);
-        seen_.push_back(attribute);
+        e.attributes.push_back({attribute, text_.substr(from, to - from), {start, pos_}, {from, to}});
         return references(from, to);
     }
 
@@ -293,15 +332,15 @@ class Scanner {
                     fmt::format("the file has more than {} elements, attributes and comments", max_nodes_));
     }
 
-    const Document& document_;
+    const Document* document_ = nullptr;  ///< null when all elements are kept, instead of reporting faults
     std::string_view text_, beginning_;
-    std::size_t max_nodes_;
-    Diagnostics& diagnostics_;
+    std::size_t max_nodes_ = std::numeric_limits<std::size_t>::max();
+    Diagnostics* diagnostics_ = nullptr;
     std::size_t pos_ = 0, nodes_ = 0;
     bool only_instructions_ =
         true;  ///< whether nothing else has come so far; tinyxml2 reads instructions only there
-    std::string_view root_, last_value_;         ///< the value of the previous attribute
-    std::vector<std::string_view> open_, seen_;  ///< open elements, and the attributes of this tag
+    std::string_view root_;
+    std::vector<SourceElement> open_{1};  ///< open elements, around which the first one stands
 };
 
 }  // namespace
@@ -310,5 +349,7 @@ std::optional<std::string_view> find_root(const Document& document, std::string_
                                           std::size_t max_nodes, Diagnostics& diagnostics) {
     return Scanner(document, beginning, max_nodes, diagnostics).run();
 }
+
+SourceElement scan(std::string_view text) { return Scanner(text).tree(); }
 
 }  // namespace forage::xml
