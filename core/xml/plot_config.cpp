@@ -1,10 +1,10 @@
 #include "core/xml/plot_config.h"
 
-#include <charconv>
 #include <map>
 
 #include <fmt/format.h>
 
+#include "core/base/number.h"
 #include "core/xml/document.h"
 
 namespace forage::xml {
@@ -24,9 +24,7 @@ std::vector<std::string> pieces(std::string_view text) {
 /// A whole number of at least 0. Reports another text.
 std::optional<int> count_in(std::string_view text, const Location& at, std::string_view what,
                             Diagnostics& diagnostics) {
-    int out = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), out);
-    if (error == std::errc() && end == text.data() + text.size() && out >= 0) return out;
+    if (const auto out = parse_number<int>(text); out && *out >= 0) return out;
     diagnostics.error(at, fmt::format("{} is a whole number, not '{}'", what, text));
     return std::nullopt;
 }

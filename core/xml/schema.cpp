@@ -172,10 +172,8 @@ class Schema : Printer {
         close(), close(), close();
     }
 
-    struct Place {
-        std::string name, doc;
-    };
-    void holder(const char* name, const std::vector<Place>& places, bool any) {
+    template <class Places>
+    void holder(const char* name, const Places& places, bool any) {
         element("XRefHolder");
         attribute("name"), written("value", name), close();
         if (any) {
@@ -185,7 +183,7 @@ class Schema : Printer {
         } else {
             open("zeroOrMore"), element("XRef");
             attribute("name"), open("choice");
-            for (const auto& p : places) documentation(p.doc), written("value", p.name);
+            for (const auto& p : places) documentation(p.label), written("value", p.name);
             close(), close();
             attribute("target"), leaf("text"), close();
             close(), close();
@@ -194,15 +192,13 @@ class Schema : Printer {
     }
     void holders(const NeuronType&) {}
     void holders(const SynapseType& type) {
-        std::vector<Place> places;
-        for (const auto& f : type.feedback) places.push_back({f.name, f.label});
         open("zeroOrMore");
-        holder("Freedback", places, false);
+        holder("Freedback", type.feedback, false);
         close();
     }
     void holders(const ModuleType& type) {
-        std::vector<Place> in, out;
-        for (const auto& p : type.ports) (p.is_output ? out : in).push_back({p.name, p.label});
+        std::vector<ModulePort> in, out;
+        for (const auto& p : type.ports) (p.is_output ? out : in).push_back(p);
         open("zeroOrMore"), open("choice");
         holder("InputFromGroup", in, type.any_ports);
         holder("OutputToGroup", out, type.any_ports);
