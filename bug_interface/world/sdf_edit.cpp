@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <stdexcept>
 
@@ -34,9 +35,6 @@ struct Opened {
     }
     bool has(std::string_view name) const {
         return std::ranges::find(entries, name, &Entry::name) != entries.end();
-    }
-    bool has_form(Entry::Form form) const {
-        return std::ranges::find(entries, form, &Entry::form) != entries.end();
     }
 };
 
@@ -76,15 +74,12 @@ std::string free_name(const Opened& here, const std::string& kind) {
 
 /// Reports what a world has only once.
 void check_single(const Opened& here, const std::string& kind) {
-    const bool taken =
-        kind == "game" ? here.has_form(Entry::Form::game)
-        : kind == "trials"
-            ? here.has_form(Entry::Form::trials)
-            : kind == "sun" && std::ranges::find(here.entries, "sun", &Entry::kind) != here.entries.end();
-    if (taken)
-        throw std::invalid_argument(kind == "sun" ? "there is already a sun"
-                                                  : fmt::format("there are already rules of {}",
-                                                                kind == "game" ? "a game" : "trials"));
+    static const std::map<std::string_view, const char*> single = {
+        {"sun", "a sun"}, {"game", "rules of a game"}, {"trials", "rules of trials"}};
+    const auto found = single.find(kind);
+    if (found != single.end() && std::ranges::find(here.entries, kind, &Entry::kind) != here.entries.end())
+        throw std::invalid_argument(
+            fmt::format("there {} already {}", kind == "sun" ? "is" : "are", found->second));
 }
 
 /// The value as it is written, when it fits the property.
@@ -148,9 +143,7 @@ std::string add_to_world(const std::string& text, NewItem item, ModelTexts& mode
     const Opened now(out, models);
     // The new one is the last of its kind in the file.
     for (const auto& e : now.entries)
-        if (site                                           ? e.form == Entry::Form::site
-            : item.kind == "game" || item.kind == "trials" ? e.kind == item.kind
-                                                           : e.name == item.name)
+        if (site || item.kind == "game" || item.kind == "trials" ? e.kind == item.kind : e.name == item.name)
             id = e.id;
     return out;
 }

@@ -170,51 +170,10 @@ xml::Format make_format() {
     return std::move(out).link();
 }
 
-xml::Format make_game_format() {
-    return xml::Format{
-        .name = "a game",
-        .beginning = "<plugin ...>",
-        .roots = {"plugin"},
-        .values = {{"seconds", number("seconds of the world", 1e-6, 1e6)},
-                   {"points", whole("points for the team", -200, 200)},
-                   {"resources", whole("resources at a time", 1, 200)},
-                   {"site", numbers(3, "x and y in m, and how likely a resource appears in a second")}},
-        .elements = {{"plugin",
-                      "the rules of a game",
-                      "duration?:seconds stale_after?:seconds dissolves_after?:seconds points?:points "
-                      "penalty?:points most?:resources site:site",
-                      {xml::text("name", ""), xml::text("filename", "")}}}}
-        .link();
-}
-
-xml::Format make_trials_format() {
-    return xml::Format{.name = "trials",
-                       .beginning = "<plugin ...>",
-                       .roots = {"plugin"},
-                       .values = {{"metres", number("metres", 0.2, 100)},
-                                  {"seconds", number("seconds of the world", 1e-3, 1e6)},
-                                  {"radians", number("radians", 0, 3.2)}},
-                       .elements = {{"plugin",
-                                     "the rules of trials",
-                                     "reach?:metres duration?:seconds heading?:radians",
-                                     {xml::text("name", ""), xml::text("filename", "")}}}}
-        .link();
-}
-
 }  // namespace
 
 const xml::Format& sdf_format() {
     static const xml::Format format = make_format();
-    return format;
-}
-
-const xml::Format& game_format() {
-    static const xml::Format format = make_game_format();
-    return format;
-}
-
-const xml::Format& trials_format() {
-    static const xml::Format format = make_trials_format();
     return format;
 }
 

@@ -7,10 +7,6 @@ namespace forage::bug {
 
 /// The format of SDF files, which hold worlds and models.
 const xml::Format& sdf_format();
-/// The format of the <plugin> with the rules of a game.
-const xml::Format& game_format();
-/// The format of the <plugin> with the rules of trials.
-const xml::Format& trials_format();
 /// The format of the file model.config. Its table is empty, as only one of its elements is read.
 const xml::Format& model_config_format();
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "bug_interface/world/sdf_rules.h"
 #include "core/base/number.h"
 
 namespace forage::bug {
@@ -29,28 +30,21 @@ constexpr ValueRow world_rows[] = {
     {"step", "Step, s", "physics type=\"ode\"/max_step_size", 0.001, 1e-6, 1},
     {"rate", "Steps per second", "physics type=\"ode\"/real_time_update_rate", 1000, 1e-6, 1e6},
 };
-constexpr ValueRow trial_rows[] = {
-    {"reach", "Reach, m", "reach", 0.45, 0.2, 100},
-    {"duration", "Longest trial, s", "duration", 1e6, 1e-3, 1e6},
-    {"heading", "Deviation of headings, rad", "heading", 0.01, 0, 3.2},
-};
-constexpr ValueRow game_rows[] = {
-    {"duration", "Duration, s", "duration", 300, 1e-6, 1e6},
-    {"stale_after", "Stale after, s", "stale_after", 30, 1e-6, 1e6},
-    {"dissolves_after", "Dissolves after, s", "dissolves_after", 50, 1e-6, 1e6},
-    {"points", "Points", "points", 2, -200, 200, true},
-    {"penalty", "Points when stale", "penalty", -1, -200, 200, true},
-    {"most", "Most resources", "most", 16, 1, 200, true},
-};
 
 std::vector<ValueRow> rows_of(const Entry& e) {
-    const auto list = [](const auto& table) {
-        return std::vector<ValueRow>(std::begin(table), std::end(table));
+    std::vector<ValueRow> out;
+    const auto add = [&]<class Rules>(const Rules& usual, const auto& table) {
+        for (const RuleOf<Rules>& r : table) {
+            const double value = std::visit([&](auto m) { return static_cast<double>(usual.*m); }, r.member);
+            out.push_back({r.name, r.label, r.name, std::min(value, r.high), r.low, r.high, r.whole()});
+        }
     };
-    if (e.form == Entry::Form::world) return list(world_rows);
-    if (e.form == Entry::Form::trials) return list(trial_rows);
-    if (e.form == Entry::Form::game) return list(game_rows);
-    return {};
+    if (e.form == Entry::Form::world) out.assign(std::begin(world_rows), std::end(world_rows));
+    if (e.form == Entry::Form::trials) add(TrialRules(), trial_rules);
+    if (e.form == Entry::Form::game) add(GameRules(), game_rules);
+    if (e.is_model() && (e.kind == "object" || e.kind == "resource"))
+        out.push_back({"mass", "Mass, kg", "link/inertial/mass", 1, 1e-6, 1e6});
+    return out;
 }
 
 /// A number as a form shows it.
@@ -156,10 +150,6 @@ void add_model_properties(const Entry& e, std::vector<ItemProperty>& out) {
         const auto* mu = at_path(*collisions(e).front(), "surface/friction/ode/mu");
         const auto friction = numbers_in(e.body.text, mu);
         out.push_back(number("friction", "Friction", friction.size() == 1 ? friction[0] : 1, 0, 1000));
-    }
-    if (e.kind == "object" || e.kind == "resource") {
-        const auto mass = numbers_in(e.body.text, at_path(*e.body.element, "link/inertial/mass"));
-        out.push_back(number("mass", "Mass, kg", mass.size() == 1 ? mass[0] : 1, 1e-6, 1e6));
     }
 }
 
@@ -271,12 +261,6 @@ std::vector<ItemProperty> properties_of(std::string_view text, const Entry& e, c
         const auto v = numbers_in(text, e.element);
         out.push_back(number("chance", "Chance in a second", v.size() == 3 ? v[2] : 0, 0, 1));
     }
-    for (const ValueRow& r : rows_of(e)) {
-        const auto v = numbers_in(text, at_path(*e.element, r.path));
-        auto p = number(r.name, r.label, v.empty() ? r.otherwise : v[0], r.low, r.high);
-        if (r.whole) p.kind = "integer";
-        out.push_back(std::move(p));
-    }
     if (e.body.element && e.body.element->name == "light") {
         const auto sun = sun_of(e.body);
         for (auto [name, label, value, low, high] :
@@ -288,6 +272,13 @@ std::vector<ItemProperty> properties_of(std::string_view text, const Entry& e, c
         }
     } else if (e.is_model() && e.body.element) {
         add_model_properties(e, out);
+    }
+    const auto* element = e.is_model() ? e.body.element : e.element;
+    for (const ValueRow& r : rows_of(e)) {
+        const auto v = numbers_in(e.is_model() ? e.body.text : text, at_path(*element, r.path));
+        auto p = number(r.name, r.label, v.empty() ? r.otherwise : v[0], r.low, r.high);
+        if (r.whole) p.kind = "integer";
+        out.push_back(std::move(p));
     }
     return out;
 }
@@ -309,8 +300,6 @@ void write_property(xml::TextEdits& edits, std::string_view text, const WorldTre
     if (name == "color") return write_colour(edits, text, tree, e, value);
     if (name == "movable")
         return set_value(edits, text, tree.layout, *e.element, "static", value == "1" ? "false" : "true");
-    if (name == "mass")
-        return set_value(edits, text, tree.layout, *e.element, "link/inertial/mass", number_text(v));
     if (name == "friction") {
         for (const auto* c : collisions(e))
             set_value(edits, text, tree.layout, *c, "surface/friction/ode/mu", number_text(v));

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number.h"
+#include "core/xml/document.h"
 
 namespace forage::bug {
 namespace {
@@ -81,11 +82,9 @@ std::string decoded(std::string_view text) {
 
 std::vector<Span> words(std::string_view text, Span span) {
     std::vector<Span> out;
-    for (auto at = text.find_first_not_of(blanks, span.begin); at < span.end;
-         at = text.find_first_not_of(blanks, at)) {
-        const auto end = std::min(text.find_first_of(blanks, at), span.end);
-        out.push_back({at, end});
-        at = end;
+    for (const auto word : xml::words(span.of(text))) {
+        const auto begin = static_cast<std::size_t>(word.data() - text.data());
+        out.push_back({begin, begin + word.size()});
     }
     return out;
 }
