@@ -1,7 +1,10 @@
 #include "bug_interface/world/material.h"
 
 #include <algorithm>
+#include <cmath>
 #include <sstream>
+
+#include <fmt/format.h>
 
 namespace forage::bug {
 namespace {
@@ -42,6 +45,11 @@ std::vector<std::string> material_names() {
     std::vector<std::string> out;
     for (const NamedMaterial& m : named_materials()) out.push_back(m.name);
     return out;
+}
+
+std::string hex_of(const Colour& colour) {
+    const auto part = [&](int i) { return std::lround(std::clamp(colour(i), 0.0f, 1.0f) * 255); };
+    return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
 }
 
 std::string texture_in_script(std::string_view script_text, std::string_view name) {

@@ -16,6 +16,9 @@ std::optional<Material> named_material(std::string_view name);
 /// The names that named_material() knows.
 std::vector<std::string> material_names();
 
+/// A colour as #rrggbb.
+std::string hex_of(const Colour& colour);
+
 /// The file name that `script_text` gives to the texture of material `name`; empty when there is none.
 std::string texture_in_script(std::string_view script_text, std::string_view name);
 

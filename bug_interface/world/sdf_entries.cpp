@@ -148,8 +148,7 @@ std::string colour_of(std::string_view text, const SourceElement& visual) {
         if (const auto v = numbers_in(text, child(*material, "diffuse")); v.size() >= 3)
             colour = Colour(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
     }
-    const auto part = [&](int i) { return std::lround(std::clamp(colour(i), 0.0f, 1.0f) * 255); };
-    return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
+    return hex_of(colour);
 }
 
 }  // namespace forage::bug

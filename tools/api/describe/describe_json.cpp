@@ -7,9 +7,12 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bug_interface/world/material.h"
 #include "core/model/edit.h"
 #include "core/model/lookup.h"
+#include "core/model/operations.h"
 #include "tools/api/describe/system_description.h"
+#include "tools/api/edit/forms.h"
 #include "tools/plot/world_map.h"
 
 namespace forage {
@@ -56,16 +59,11 @@ json module_of(const model::Process& p) {
 
 json line_of(const std::optional<model::Line>& line) {
     if (!line) return nullptr;
-    const auto places = [](const std::vector<model::Point>& all) {
-        json out = json::array();
-        for (const auto& v : all) out.push_back({v.x, v.y});
-        return out;
-    };
     return {{"source_anchor", line->source_anchor},
             {"target_anchor", line->target_anchor},
-            {"vertices", places(line->vertices)},
-            {"source_vertices", places(line->source_vertices)},
-            {"target_vertices", places(line->target_vertices)}};
+            {"vertices", editing::points_of(line->vertices)},
+            {"source_vertices", editing::points_of(line->source_vertices)},
+            {"target_vertices", editing::points_of(line->target_vertices)}};
 }
 
 json comments_of(const std::vector<model::CanvasComment>& comments) {
@@ -81,13 +79,6 @@ json phantoms_of(const std::vector<model::Phantom>& phantoms) {
     return out;
 }
 
-std::string trimmed(const std::string& text) { return std::string(model::trim(text)); }
-
-std::string colour_of(const bug::Colour& c) {
-    const auto part = [&](int i) { return std::lround(std::clamp(c[i], 0.f, 1.f) * 255); };
-    return fmt::format("#{:02x}{:02x}{:02x}", part(0), part(1), part(2));
-}
-
 json solid_of(const bug::Solid& s, const bug::Colour& colour) {
     constexpr const char* kinds[] = {"plane", "box", "cylinder", "sphere"};
     const auto at = s.pose.translation();
@@ -97,40 +88,13 @@ json solid_of(const bug::Solid& s, const bug::Colour& colour) {
             {"z", at.z()},
             {"yaw", bug::yaw_of(s.pose)},
             {"size", {s.size.x(), s.size.y(), s.size.z()}},
-            {"color", colour_of(colour)}};
+            {"color", bug::hex_of(colour)}};
 }
 
 json pose_of(const Pose2& p) { return {{"x", p.x}, {"y", p.y}, {"yaw", p.yaw}}; }
 
 json json_of(const ParameterValue& value) {
     return std::visit([](const auto& v) { return json(v); }, value);
-}
-
-const std::vector<Parameter>* parameters_of(const Run& run, const model::Assignment& item, std::string& path,
-                                            std::string& type) {
-    const auto& system = run.system();
-    for (const auto& p : system.processes) {
-        if (item.owner == model::Assignment::Owner::process && p.id == item.id) {
-            path = trimmed(p.name);
-            if (!p.module) return nullptr;
-            const auto* t = run.registry().module(type = p.module->type);
-            return t ? &t->parameters : nullptr;
-        }
-        for (const auto& g : p.groups)
-            if (item.owner == model::Assignment::Owner::group && g.id == item.id) {
-                path = model::path(system, p, g);
-                const auto* t = run.registry().neuron(type = g.neuron.type);
-                return t ? &t->parameters : nullptr;
-            }
-    }
-    for (const auto& c : system.connections)
-        if (item.owner == model::Assignment::Owner::connection && c.id == item.id) {
-            path = trimmed(c.name);
-            if (!c.synapse) return nullptr;
-            const auto* t = run.registry().synapse(type = c.synapse->type);
-            return t ? &t->parameters : nullptr;
-        }
-    return nullptr;
 }
 
 /// A parameter of a type, without a value.
@@ -286,15 +250,18 @@ json describe_parameters(Run& run, std::string_view item) {
     Diagnostics diagnostics;
     auto found = model::find_item(run.system(), item, "parameters", diagnostics);
     throw_errors(diagnostics);
-    std::string path, type;
-    const auto* parameters = parameters_of(run, *found, path, type);
+    const auto& system = run.system();
+    const auto path = model::name_of(system, found->id);
+    const auto* use = model::find_use(system, found->id);
+    const auto type = use ? use->type : std::string();
+    const auto* parameters = model::parameters_of(run.registry(), found->owner, type);
     constexpr const char* owners[] = {"group", "process", "connection"};
     json list = json::array();
     if (parameters)
         for (const Parameter& p : *parameters) {
             // A connection whose name is not unique is named by its id.
             Diagnostics ignored;
-            const bool unique = model::find_item(run.system(), path, "", ignored).has_value();
+            const bool unique = model::find_item(system, path, "", ignored).has_value();
             list.push_back(parameter_of(run, *found, p, unique ? path : found->id));
         }
     return {{"item", path},

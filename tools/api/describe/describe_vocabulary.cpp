@@ -11,54 +11,20 @@ namespace {
 
 using nlohmann::json;
 
-const char* name_of(xml::ValueKind kind) {
-    switch (kind) {
-        case xml::ValueKind::choice:
-            return "choice";
-        case xml::ValueKind::boolean:
-            return "boolean";
-        case xml::ValueKind::number:
-            return "number";
-        case xml::ValueKind::whole:
-            return "whole";
-        case xml::ValueKind::text:
-        case xml::ValueKind::any:
-            break;
-    }
-    return "text";
-}
-
-json name_of(xml::Names names) {
-    switch (names) {
-        case xml::Names::neuron:
-            return "neuron";
-        case xml::Names::synapse:
-            return "synapse";
-        case xml::Names::module:
-            return "module";
-        case xml::Names::parameter:
-            return "parameter";
-        case xml::Names::value:
-            return "value";
-        case xml::Names::port:
-            return "port";
-        case xml::Names::group:
-            return "group";
-        case xml::Names::target:
-            return "target";
-        case xml::Names::nothing:
-            break;
-    }
-    return nullptr;
-}
+// In the order of xml::ValueKind and of xml::Names, whose first one names nothing.
+constexpr const char* value_kinds[] = {"text", "choice", "boolean", "number", "whole", "text"};
+constexpr const char* named_things[] = {"",      "neuron", "synapse", "module", "parameter",
+                                        "value", "port",   "group",   "target"};
 
 json finite(double number) { return std::isfinite(number) ? json(number) : json(nullptr); }
 
 json of(const xml::AttributeRule& a) {
     const auto& v = a.value;
-    json out = {{"name", a.name},           {"doc", v.doc},   {"required", a.required},
-                {"kind", name_of(v.kind)},  {"unit", v.unit}, {"default", v.otherwise},
-                {"names", name_of(v.names)}};
+    json out = {{"name", a.name},         {"doc", v.doc},
+                {"required", a.required}, {"kind", value_kinds[static_cast<int>(v.kind)]},
+                {"unit", v.unit},         {"default", v.otherwise},
+                {"names", nullptr}};
+    if (v.names != xml::Names::nothing) out["names"] = named_things[static_cast<int>(v.names)];
     if (v.kind == xml::ValueKind::number || v.kind == xml::ValueKind::whole)
         out["low"] = finite(v.low), out["high"] = finite(v.high);
     if (v.kind == xml::ValueKind::boolean) out["choices"] = {"true", "false"};

@@ -1,3 +1,4 @@
+#include <map>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -8,12 +9,8 @@
 namespace forage {
 namespace {
 
-std::string number_of(std::size_t n, std::string_view what) {
-    return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
-}
-
-std::string number_of_processes(std::size_t n) {
-    return fmt::format("{} {}", n, n == 1 ? "process" : "processes");
+std::string number_of(std::size_t n, std::string_view what, std::string_view ending = "s") {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : ending);
 }
 
 std::string size_of(const GroupDescription& group) {
@@ -53,27 +50,14 @@ std::string markdown_cell(const std::string& text) {
 }
 
 std::string latex_text(const std::string& text) {
-    return escape(text, "\\{}$&#^_~%\n<>|\"/", [](char c) -> std::string {
-        switch (c) {
-            case '\\':
-                return "\\textbackslash{}";
-            case '^':
-                return "\\textasciicircum{}";
-            case '~':
-                return "\\textasciitilde{}";
-            case '<':
-                return "\\textless{}";
-            case '>':
-                return "\\textgreater{}";
-            case '|':
-                return "\\textbar{}";
-            case '"':
-                return "\\textquotedbl{}";
-            case '\n':
-                return " ";
-            default:
-                return std::string("\\") + c;
-        }
+    static const std::map<char, const char*> named = {
+        {'\\', "\\textbackslash{}"}, {'^', "\\textasciicircum{}"},
+        {'~', "\\textasciitilde{}"}, {'<', "\\textless{}"},
+        {'>', "\\textgreater{}"},    {'|', "\\textbar{}"},
+        {'"', "\\textquotedbl{}"},   {'\n', " "}};
+    return escape(text, "\\{}$&#^_~%\n<>|\"/", [](char c) {
+        const auto it = named.find(c);
+        return it == named.end() ? std::string("\\") + c : it->second;
     });
 }
 
@@ -107,7 +91,7 @@ std::vector<Table> tables(const SystemDescription& d) {
     summary.rows = {
         {"System", d.name},
         {"Size",
-         fmt::format("{}, {}, {}, {}, {}", number_of_processes(d.processes.size()),
+         fmt::format("{}, {}, {}, {}, {}", number_of(d.processes.size(), "process", "es"),
                      number_of(d.groups(), "group"), number_of(d.cells(), "cell"),
                      number_of(d.connections.size(), "connection"), number_of(d.synapses(), "synapse"))},
         {"Clock", d.cycles_per_second > 0 ? fmt::format("{} cycles per second", d.cycles_per_second)
@@ -153,7 +137,7 @@ nlohmann::ordered_json json_of(const TypeDescription& type) {
 
 std::string as_text(const SystemDescription& d) {
     std::string out =
-        fmt::format("{}: {}, {} ({}), {} ({})\n", d.name, number_of_processes(d.processes.size()),
+        fmt::format("{}: {}, {} ({}), {} ({})\n", d.name, number_of(d.processes.size(), "process", "es"),
                     number_of(d.groups(), "group"), number_of(d.cells(), "cell"),
                     number_of(d.connections.size(), "connection"), number_of(d.synapses(), "synapse"));
     for (const auto& p : d.processes) {

@@ -14,12 +14,6 @@ namespace {
 
 using namespace model;
 
-json points_of(const std::vector<Point>& points) {
-    json out = json::array();
-    for (const Point& p : points) out.push_back({p.x, p.y});
-    return out;
-}
-
 json population_of(const Population& population) {
     if (const auto* r = std::get_if<Region>(&population))
         return {{"form", "region"}, {"x", r->x}, {"y", r->y}, {"width", r->width}, {"height", r->height}};
@@ -104,6 +98,12 @@ void read_form(const json& form, auto& variant, const char* what) {
 }
 
 }  // namespace
+
+json points_of(const std::vector<Point>& points) {
+    json out = json::array();
+    for (const Point& p : points) out.push_back({p.x, p.y});
+    return out;
+}
 
 std::vector<Point> points_from(const json& points) {
     std::vector<Point> out;

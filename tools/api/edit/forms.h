@@ -14,6 +14,7 @@ json json_of(const model::Pattern& pattern);
 json json_of(const model::Arborization& arborization);
 json json_of(const model::DistanceFunction& function);
 json json_of(const model::Topology& topology);
+json points_of(const std::vector<model::Point>& points);
 
 // They throw InputError for a form that does not exist, and json::exception for members that are missing.
 model::Pattern pattern_from(const json& form);
