@@ -23,14 +23,14 @@ std::vector<std::pair<int, int>> pairs(const Items& now, const Items& then, Id i
 }
 
 /// Copies the rows of the last cycles from one ring to another; row t % depth is that of cycle t.
-void copy_ring(double* to, std::int64_t to_depth, Index to_stride, const double* from,
-               std::int64_t from_depth, Index from_stride, Index cells, std::uint64_t cycle) {
+void copy_ring(double* to, std::int64_t to_depth, const double* from, std::int64_t from_depth, Index stride,
+               Index cells, std::uint64_t cycle) {
     const auto count = std::min({static_cast<std::uint64_t>(to_depth), static_cast<std::uint64_t>(from_depth),
                                  std::max<std::uint64_t>(cycle, 1)});
     for (std::uint64_t ago = 1; ago <= count; ++ago) {
         const std::uint64_t t = cycle == 0 ? 0 : cycle - ago;
-        std::copy_n(from + static_cast<Index>(t % static_cast<std::uint64_t>(from_depth)) * from_stride,
-                    cells, to + static_cast<Index>(t % static_cast<std::uint64_t>(to_depth)) * to_stride);
+        std::copy_n(from + static_cast<Index>(t % static_cast<std::uint64_t>(from_depth)) * stride, cells,
+                    to + static_cast<Index>(t % static_cast<std::uint64_t>(to_depth)) * stride);
     }
 }
 
@@ -42,28 +42,24 @@ class Adoption {
     void group(int i, int k) {
         const auto &p = plan_.groups[static_cast<std::size_t>(i)],
                    &was = old_plan_.groups[static_cast<std::size_t>(k)];
-        if (p.batch < 0 || was.batch < 0) return;
-        const auto &plan = plan_.batches[static_cast<std::size_t>(p.batch)],
-                   &old_plan = old_plan_.batches[static_cast<std::size_t>(was.batch)];
-        auto& b = state_.batches[static_cast<std::size_t>(p.batch)];
-        const auto& old = old_.batches[static_cast<std::size_t>(was.batch)];
-        for (std::size_t s = 0; s < b.states.size(); ++s)
-            copy_ring(b.states[s].ring + p.first, b.states[s].depth, plan.stride,
-                      old.states[s].ring + was.first, old.states[s].depth, old_plan.stride, p.cells,
-                      old_.cycle);
-        if (b.past && old.past)
-            copy_ring(b.past + p.first, plan.history + 1, plan.stride, old.past + was.first,
-                      old_plan.history + 1, old_plan.stride, p.cells, old_.cycle);
-        else if (b.past)  // the last cycle is in the states
-            copy_ring(b.past + p.first, plan.history + 1, plan.stride,
-                      old.states[static_cast<std::size_t>(old_plan.output)].ring + was.first,
-                      old.states[static_cast<std::size_t>(old_plan.output)].depth, old_plan.stride, p.cells,
-                      old_.cycle);
+        if (p.pruned || was.pruned) return;
+        auto& g = state_.groups[static_cast<std::size_t>(i)];
+        const auto& old = old_.groups[static_cast<std::size_t>(k)];
+        const auto copy = [&](double* to, std::int64_t to_depth, const double* from,
+                              std::int64_t from_depth) {
+            copy_ring(to, to_depth, from, from_depth, p.stride, p.cells, old_.cycle);
+        };
+        for (std::size_t s = 0; s < g.states.size(); ++s)
+            copy(g.states[s].ring, g.states[s].depth, old.states[s].ring, old.states[s].depth);
+        if (const auto& activity = old.states[static_cast<std::size_t>(was.output)]; g.past && old.past)
+            copy(g.past, p.history + 1, old.past, was.history + 1);
+        else if (g.past)  // the last cycle is in the states
+            copy(g.past, p.history + 1, activity.ring, activity.depth);
         const std::size_t next = old.delivered ? old.row ^ 1 : old.row;
         for (std::size_t kind = 0; kind < input_kinds; ++kind) {
-            if (!plan.fed[kind]) continue;  // nothing would ever replace it
-            std::copy_n(old.inputs[kind][old.row] + was.first, p.cells, b.inputs[kind][b.row] + p.first);
-            std::copy_n(old.inputs[kind][next] + was.first, p.cells, b.inputs[kind][b.row ^ 1] + p.first);
+            if (!p.fed[kind]) continue;  // nothing would ever replace it
+            std::copy_n(old.inputs[kind][old.row], p.cells, g.inputs[kind][g.row]);
+            std::copy_n(old.inputs[kind][next], p.cells, g.inputs[kind][g.row ^ 1]);
         }
     }
 
@@ -92,13 +88,16 @@ class Adoption {
     }
 
     void finish() {
-        for (auto& b : state_.batches) {
-            b.delivered = true;
-            b.quiescent = b.same_input = b.silent = false;
-            b.same_for = 0;
-            b.changed = static_cast<std::int64_t>(old_.cycle);
+        for (std::size_t i = 0; i < state_.groups.size(); ++i) {
+            if (plan_.groups[i].pruned) continue;
+            auto& g = state_.groups[i];
+            g.delivered = true;
+            g.quiescent = g.same_input = g.silent = false;
+            g.same_for = 0;
+            g.changed = static_cast<std::int64_t>(old_.cycle);
         }
-        for (auto& d : state_.deliveries) d.changed = true;
+        for (std::size_t i = 0; i < state_.connections.size(); ++i)
+            state_.connections[i].changed = plan_.connections[i].kernel != nullptr;
         state_.cycle = old_.cycle, state_.shown = old_.shown;
     }
 

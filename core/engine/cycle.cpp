@@ -36,13 +36,13 @@ bool all_zero(const double* row, Index n) {
 
 /// Calls visit(row) for all rows of all states.
 template <class Visit>
-void each_row(const BatchState& g, Index stride, Visit visit) {
+void each_row(const GroupState& g, Index stride, Visit visit) {
     for (const auto& s : g.states)
         for (std::int64_t row = 0; row < s.depth; ++row) visit(s.ring + row * stride);
 }
 
 /// Whether some cells' states are what they were, and what they are in every cycle that is kept.
-bool at_rest(const BatchState& g, Index stride, Index first, Index count, const double* before) {
+bool at_rest(const GroupState& g, Index stride, Index first, Index count, const double* before) {
     for (const auto& s : g.states)
         for (std::int64_t row = 0; row < s.depth; ++row, before += count)
             if (!same_bits(s.ring + row * stride + first, before, count) ||
@@ -60,9 +60,10 @@ FORAGE_SIMD void begin_sum(const double* from, Index n, double* to) {
 
 Cycle::Cycle(const Plan& plan, State& state, int threads) : plan_(plan), state_(state), workers_(threads) {
     Index widest = 0, most = 0;
-    for (const auto& b : plan.batches) {
-        widest = std::max(widest, b.stride);
-        most = std::max(most, (b.numbers <= most_searched ? b.numbers : 0) + b.stride);
+    for (const auto& g : plan.groups) {
+        if (g.pruned) continue;
+        widest = std::max(widest, g.stride);
+        most = std::max(most, (g.numbers <= most_searched ? g.numbers : 0) + g.stride);
     }
     for (auto& w : workers_) {  // scratch is not in memory until a type draws numbers
         w.scratch = std::make_unique_for_overwrite<double[]>(widest * NeuronColumns::scratch_columns);
@@ -73,32 +74,32 @@ Cycle::Cycle(const Plan& plan, State& state, int threads) : plan_(plan), state_(
 // Groups
 
 void Cycle::update_groups() {
-    for (const auto [batch, deliver] : plan_.steps)
+    for (const auto [group, deliver] : plan_.steps)
         if (deliver)
-            deliver_to(batch);
+            deliver_to(group);
         else
-            update(batch, 0);
+            update(group, 0);
 }
 
-void Cycle::update(int batch, int thread) {
-    if (begin_update(batch)) end_update(batch, update_part(batch, {}, thread));
-    if (!plan_.overwritten) remember(batch);
+void Cycle::update(int group, int thread) {
+    if (begin_update(group)) end_update(group, update_part(group, {}, thread));
+    if (!plan_.overwritten) remember(group);
 }
 
-bool Cycle::begin_update(int batch) {
-    auto& b = state_.batches[batch];
-    if (b.quiescent) return false;
-    b.same_for = b.same_input ? b.same_for + 1 : 0;
-    // Looking whether a batch is quiescent costs about as much as an update, so it is done after 1, 2,
-    // 4, 8... updates with the same input.
-    b.looks = std::has_single_bit(b.same_for) && plan_.batches[batch].numbers <= most_searched;
-    if (std::exchange(b.delivered, false)) b.row ^= 1;
+bool Cycle::begin_update(int group) {
+    auto& g = state_.groups[group];
+    if (g.quiescent) return false;
+    g.same_for = g.same_input ? g.same_for + 1 : 0;
+    // Checking for quiescence costs about as much as an update, so the check runs after 1, 2, 4, 8, ...
+    // updates with the same input.
+    g.looks = std::has_single_bit(g.same_for) && plan_.groups[group].numbers <= most_searched;
+    if (std::exchange(g.delivered, false)) g.row ^= 1;
     return true;
 }
 
-Cycle::Found Cycle::update_part(int batch, Part part, int thread) {
-    const auto& p = plan_.batches[batch];
-    const auto& b = state_.batches[batch];
+Cycle::Found Cycle::update_part(int group, Part part, int thread) {
+    const auto& p = plan_.groups[group];
+    const auto& g = state_.groups[group];
     Index first = 0, count = p.cells;
     if (part.count > 1) {  // whole grains of random numbers, and of lines of the cache
         constexpr auto grain = RandomStream::grain;
@@ -110,69 +111,60 @@ Cycle::Found Cycle::update_part(int batch, Part part, int thread) {
     if (count <= 0) return found;
     const auto cycle = state_.cycle;
     double *before = workers_[thread].before.data(), *old = before;
-    if (b.looks)
-        each_row(b, p.stride, [&](const double* row) { old = std::copy_n(row + first, count, old); });
+    if (g.looks)
+        each_row(g, p.stride, [&](const double* row) { old = std::copy_n(row + first, count, old); });
     const bool small = p.cells <= most_compared;
-    if (small && cycle > 0) std::copy_n(activity_row(b, p, cycle - 1) + first, count, old);
+    if (small && cycle > 0) std::copy_n(activity_row(g, p, cycle - 1) + first, count, old);
 
-    bool time_invariant = true;
-    const std::size_t together = b.alike ? p.groups.size() : 1;
-    for (std::size_t i = 0; i < p.groups.size(); i += together) {
-        const Index from = b.alike ? first : p.streams[i].first,
-                    cells = b.alike ? count : plan_.groups[p.groups[i]].cells;
-        NeuronColumns columns(cells, p.stride, cycle,
-                              {b.inputs[0][b.row], b.inputs[1][b.row], b.inputs[2][b.row]}, b.states,
-                              {&p.streams[i], together}, workers_[thread].scratch.get(),
-                              {!p.fed[0], !p.fed[1], !p.fed[2]}, from);
-        try {
-            state_.groups[p.groups[i]].neuron->update(columns);
-        } catch (...) {
-            const auto& about = plan_.layout.groups[p.groups[i]];
-            std::throw_with_nested(
-                RunError(fmt::format("{} of group '{}'{} failed in cycle {}: {}", about.type.name, about.path,
-                                     together > 1 ? " or of one that is updated with it" : "", cycle,
-                                     current_exception_message())));
-        }
-        time_invariant &= columns.time_invariant();
+    NeuronColumns columns(count, p.stride, cycle,
+                          {g.inputs[0][g.row], g.inputs[1][g.row], g.inputs[2][g.row]}, g.states, p.random,
+                          workers_[thread].scratch.get(), {!p.fed[0], !p.fed[1], !p.fed[2]}, first);
+    try {
+        g.neuron->update(columns);
+    } catch (...) {
+        const auto& about = plan_.layout.groups[group];
+        std::throw_with_nested(
+            RunError(fmt::format("{} of group '{}' failed in cycle {}: {}", about.type.name, about.path,
+                                 cycle, current_exception_message())));
     }
     // All rows follow each other, filled up with zeros. An older number that is not finite was found before.
     if (check_finite && count == p.cells)
-        found.finite = all_finite(b.states.front().ring, p.numbers);
+        found.finite = all_finite(g.states.front().ring, p.numbers);
     else if (check_finite)
-        each_row(b, p.stride,
+        each_row(g, p.stride,
                  [&](const double* row) { found.finite &= all_finite(row + first, Rows::stride(count)); });
-    found.quiescent = b.looks && time_invariant && at_rest(b, p.stride, first, count, before);
+    found.quiescent = g.looks && columns.time_invariant() && at_rest(g, p.stride, first, count, before);
     if (found.quiescent && count == p.cells) return found;  // other parts need to know what this one holds
-    const double* now = activity_row(b, p, cycle) + first;
+    const double* now = activity_row(g, p, cycle) + first;
     found.same_activity = small && cycle > 0 && same_bits(now, old, count);
     found.silent = !small && all_zero(now, count);
     return found;
 }
 
-void Cycle::end_update(int batch, const Found& found) {
-    auto& b = state_.batches[batch];
-    b.finite = found.finite;
-    b.quiescent = found.quiescent;
-    if (b.quiescent) return;
-    const bool was_silent = std::exchange(b.silent, found.silent);
-    if (!found.same_activity && !(was_silent && b.silent))
-        b.changed = static_cast<std::int64_t>(state_.cycle);
+void Cycle::end_update(int group, const Found& found) {
+    auto& g = state_.groups[group];
+    g.finite = found.finite;
+    g.quiescent = found.quiescent;
+    if (g.quiescent) return;
+    const bool was_silent = std::exchange(g.silent, found.silent);
+    if (!found.same_activity && !(was_silent && g.silent))
+        g.changed = static_cast<std::int64_t>(state_.cycle);
 }
 
-void Cycle::remember(int batch) {
-    const auto& p = plan_.batches[batch];
-    const auto& b = state_.batches[batch];
-    if (p.history == 0 || static_cast<std::int64_t>(state_.cycle) > b.changed + p.history) return;
+void Cycle::remember(int group) {
+    const auto& p = plan_.groups[group];
+    const auto& g = state_.groups[group];
+    if (p.history == 0 || static_cast<std::int64_t>(state_.cycle) > g.changed + p.history) return;
     const auto row = static_cast<Index>(state_.cycle % static_cast<std::uint64_t>(p.history + 1));
-    std::copy_n(activity_row(b, p, state_.cycle), p.cells, b.past + row * p.stride);
+    std::copy_n(activity_row(g, p, state_.cycle), p.cells, g.past + row * p.stride);
 }
 
 void Cycle::invalidate(int group) {
     if (plan_.groups[group].pruned) return;
-    auto& b = state_.batches[plan_.groups[group].batch];
-    b.quiescent = b.silent = false;
-    b.same_for = 0;
-    b.changed = static_cast<std::int64_t>(state_.cycle);
+    auto& g = state_.groups[group];
+    g.quiescent = g.silent = false;
+    g.same_for = 0;
+    g.changed = static_cast<std::int64_t>(state_.cycle);
 }
 
 // Modules
@@ -182,9 +174,8 @@ void Cycle::show_inputs(int module) {
     const auto& groups = plan_.layout.modules[module].input_groups;
     for (std::size_t i = 0; i < groups.size(); ++i)
         if (const int g = groups[i]; g >= 0)
-            new (&state_.modules[module].in[i])
-                ConstColumn(state_row(state_, plan_, g, plan_.layout.groups[g].type.output(), state_.cycle),
-                            plan_.groups[g].cells);
+            new (&state_.modules[module].in[i]) ConstColumn(
+                activity_row(state_.groups[g], plan_.groups[g], state_.cycle), plan_.groups[g].cells);
 }
 
 /// Notes which outputs of a module differ from what it wrote before.
@@ -217,8 +208,9 @@ void Cycle::start_modules() {
         }
         note_changes(i);
     }
-    for (int i = 0; i < std::ssize(state_.batches); ++i) {
-        state_.batches[i].delivered = true;
+    for (int i = 0; i < std::ssize(plan_.groups); ++i) {
+        if (plan_.groups[i].pruned) continue;
+        state_.groups[i].delivered = true;
         receive_from_modules(i);
     }
 }
@@ -244,56 +236,47 @@ void Cycle::update_modules() {
 
 void Cycle::begin_deliveries() {
     if (plan_.overwritten)
-        for (int i = 0; i < std::ssize(plan_.batches); ++i) remember(i);
+        for (int i = 0; i < std::ssize(plan_.groups); ++i)
+            if (!plan_.groups[i].pruned) remember(i);
 }
 
 void Cycle::deliver() {
     for (const int i : plan_.late) deliver_to(i);
 }
 
-void Cycle::deliver_to(int batch, const Share* share) {
-    const auto& p = plan_.batches[batch];
-    auto& b = state_.batches[batch];
-    b.same_input = receives_the_same(batch);
-    if (!b.same_input) b.quiescent = false;
-    b.receives = !(b.quiescent && b.delivered);
-    b.delivered = true;
-    if (b.receives && !p.module_inputs.empty()) receive_from_modules(batch);
-    for (const int i : p.deliveries) {
-        const auto& d = plan_.deliveries[i];
-        auto& now = state_.deliveries[i];
-        now.changed = false;
-        const Kernel* joint = now.alike ? d.joint.get() : nullptr;
-        for (const int c : d.connections) {
-            if (joint) {
-                deliver_through(d, c, *joint, now.workspace.get(), share);
-                break;
-            }
-            deliver_through(d, c, *plan_.connections[c].kernel, state_.connections[c].workspace.get(), share);
-        }
+void Cycle::deliver_to(int group, const Share* share) {
+    const auto& p = plan_.groups[group];
+    auto& g = state_.groups[group];
+    g.same_input = receives_the_same(group);
+    if (!g.same_input) g.quiescent = false;
+    g.receives = !(g.quiescent && g.delivered);
+    g.delivered = true;
+    if (g.receives && !p.module_inputs.empty()) receive_from_modules(group);
+    for (const int c : p.incoming) {
+        state_.connections[c].changed = false;
+        deliver_through(c, share);
     }
 }
 
-/// Whether all that is delivered to a batch is what was delivered in the cycle before.
-bool Cycle::receives_the_same(int batch) const {
-    const auto& p = plan_.batches[batch];
+/// Whether all that is delivered to a group is what was delivered in the cycle before.
+bool Cycle::receives_the_same(int group) const {
+    const auto& p = plan_.groups[group];
     for (const auto& [module, port] : p.module_inputs)
         if (state_.modules[module].changed[port]) return false;
-    for (const int i : p.deliveries) {
-        const auto& d = plan_.deliveries[i];
-        const auto& c = plan_.connections[d.connections.front()];
+    for (const int i : p.incoming) {
+        const auto& c = plan_.connections[i];
         if (!c.effective) continue;
-        if (c.plastic || state_.deliveries[i].changed) return false;
-        if (state_.batches[d.source].changed >= static_cast<std::int64_t>(state_.cycle) - c.longest_delay)
+        if (c.plastic || state_.connections[i].changed) return false;
+        if (state_.groups[c.source].changed >= static_cast<std::int64_t>(state_.cycle) - c.longest_delay)
             return false;
     }
     return true;
 }
 
 /// Puts what modules have written into the row that receives.
-void Cycle::receive_from_modules(int batch) {
-    const auto& p = plan_.batches[batch];
-    double* row = state_.batches[batch].inputs[excitatory][state_.batches[batch].row ^ 1];
+void Cycle::receive_from_modules(int group) {
+    const auto& p = plan_.groups[group];
+    double* row = state_.groups[group].inputs[excitatory][state_.groups[group].row ^ 1];
     bool sum = false;
     for (const auto& [module, port] : p.module_inputs) {
         const double* out = state_.modules[module].out[port].data();
@@ -304,30 +287,27 @@ void Cycle::receive_from_modules(int batch) {
     }
 }
 
-/// The cells of `connection` are the first ones that the kernel reads and adds to.
-void Cycle::deliver_through(const DeliveryPlan& d, int connection, const Kernel& kernel, Workspace* workspace,
-                            const Share* share) {
+void Cycle::deliver_through(int connection, const Share* share) {
     const auto& plan = plan_.connections[connection];
-    const auto& from = plan_.batches[d.source];
-    const auto &source = state_.batches[d.source], &target = state_.batches[d.target];
+    const auto& from = plan_.groups[plan.source];
+    const auto &source = state_.groups[plan.source], &target = state_.groups[plan.target];
     auto& c = state_.connections[connection];
-    const KernelInput in{
-        activity_row(source, from, state_.cycle) + plan.source_first,
-        {source.past ? source.past + plan.source_first : nullptr, from.history + 1, from.stride},
-        state_.cycle,
-        *c.synapse,
-        c.feedback,
-        state_.numbers.data(),
-        workspace};
-    double* row = target.inputs[static_cast<std::size_t>(plan.kind)][target.row ^ 1] + plan.target_first;
+    const KernelInput in{activity_row(source, from, state_.cycle),
+                         {source.past, from.history + 1, from.stride},
+                         state_.cycle,
+                         *c.synapse,
+                         c.feedback,
+                         state_.numbers.data(),
+                         c.workspace.get()};
+    double* row = target.inputs[static_cast<std::size_t>(plan.kind)][target.row ^ 1];
     try {
-        auto* shared = share ? dynamic_cast<const SharedKernel*>(&kernel) : nullptr;
+        auto* shared = share ? dynamic_cast<const SharedKernel*>(plan.kernel.get()) : nullptr;
         if (!(plan.effective && target.receives)) {
             if (plan.plastic) plan.plastic->learn(in);
         } else if (shared) {
             (*share)(*shared, in, row, plan.first);
         } else {
-            kernel.deliver(in, row, plan.first);
+            plan.kernel->deliver(in, row, plan.first);
         }
     } catch (...) {
         const auto& about = plan_.layout.connections[connection];
@@ -339,9 +319,9 @@ void Cycle::deliver_through(const DeliveryPlan& d, int connection, const Kernel&
 
 double Cycle::cost() const {
     double cost = 0;
-    for (std::size_t i = 0; i < plan_.batches.size(); ++i)
-        if (!state_.batches[i].quiescent)
-            cost += static_cast<double>(plan_.batches[i].cells) + plan_.batches[i].delivery_cost;
+    for (std::size_t i = 0; i < plan_.groups.size(); ++i)
+        if (const auto& g = plan_.groups[i]; !g.pruned && !state_.groups[i].quiescent)
+            cost += static_cast<double>(g.cells) + g.delivery_cost;
     return cost;
 }
 

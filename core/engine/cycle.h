@@ -12,12 +12,8 @@
 // that modules write to wait for the modules, and all wait when activities may be overwritten (Plan::late).
 // This pays off for chains of small groups: 200 rings of 100 cells take 24 us instead of 27.
 //
-// Eight or more small groups that only their random numbers tell apart form batches, and what is said of a
-// group here is done for a whole batch (core/engine/plan/batches.cpp): 200 rings of 100 cells take 12 us.
-// Other groups are a batch each.
-//
 // Much of a system stands still most of the time: displays of a layer that is closed, senses that see
-// nothing, a constant. Three facts, each kept per batch, let such parts cost nothing and change no bit:
+// nothing, a constant. Three facts, each kept per group, let such parts cost nothing and change no bit:
 //
 // - changed: the last cycle whose activity differed from that of the cycle before. Activities of large
 //   groups are not compared: each one counts as different unless it and the one before are silent (all 0).
@@ -55,7 +51,7 @@ class Cycle {
     /// Whether updates search their states for numbers that are not finite, and set GroupState::finite.
     bool check_finite = false;
 
-    // The steps of the phases, for several threads: each batch, or each part of one, is done by one thread.
+    // The steps of the phases, for several threads: each group, or each part of one, is done by one thread.
     // Threads are numbered from 0.
 
     /// What the update of some cells has found about them.
@@ -66,19 +62,19 @@ class Cycle {
             same_activity &= other.same_activity, silent &= other.silent;
         }
     };
-    /// Begins the update of a batch. Returns whether there is one in this cycle; if so, update_part() for all
+    /// Begins the update of a group. Returns whether there is one in this cycle; if so, update_part() for all
     /// parts and end_update() follow.
-    bool begin_update(int batch);
-    Found update_part(int batch, Part part, int thread);  ///< of a single group, if there are several parts
-    void end_update(int batch, const Found& found);
-    void update(int batch, int thread);  ///< does all of these
+    bool begin_update(int group);
+    Found update_part(int group, Part part, int thread);
+    void end_update(int group, const Found& found);
+    void update(int group, int thread);  ///< does all of these
 
-    /// Keeps a batch's activity of this cycle for the connections with a delay.
-    void remember(int batch);
+    /// Keeps a group's activity of this cycle for the connections with a delay.
+    void remember(int group);
     /// Delivers through a kernel that threads share, as Kernel::deliver() does.
     using Share =
         std::function<void(const SharedKernel& kernel, const KernelInput& in, double* target, bool first)>;
-    void deliver_to(int batch, const Share* share = nullptr);
+    void deliver_to(int group, const Share* share = nullptr);
 
     /// Estimates how long the updates and deliveries of the next cycle take on one thread, in ns.
     double cost() const;
@@ -88,10 +84,9 @@ class Cycle {
         std::unique_ptr<double[]> scratch;  ///< for NeuronColumns of the widest group
         std::vector<double> before;         ///< states to compare with
     };
-    bool receives_the_same(int batch) const;
-    void receive_from_modules(int batch);
-    void deliver_through(const DeliveryPlan& delivery, int connection, const Kernel& kernel,
-                         Workspace* workspace, const Share* share);
+    bool receives_the_same(int group) const;
+    void receive_from_modules(int group);
+    void deliver_through(int connection, const Share* share);
     void note_changes(int module);
     void show_inputs(int module);
 

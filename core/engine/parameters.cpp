@@ -116,12 +116,10 @@ void set_parameter(const Plan& plan, State& state, Cycle& cycle, const Assignmen
     const int i = number_of(plan.layout, a);
     if (a.owner == Assignment::Owner::group) {
         a.parameter->set(state.groups[i].neuron->parameters(), a.value);
-        state.compare_batch(plan, i);
         cycle.invalidate(i);
     } else if (a.owner == Assignment::Owner::connection) {
         a.parameter->set(state.connections[i].synapse->parameters(), a.value);
-        state.compare_delivery(plan, i);
-        if (const int d = plan.connections[i].delivery; d >= 0) state.deliveries[d].changed = true;
+        if (plan.connections[i].kernel) state.connections[i].changed = true;
     } else {
         a.parameter->set(state.modules[i].module->parameters(), a.value);
     }

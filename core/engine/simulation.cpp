@@ -38,9 +38,9 @@ namespace {
 std::optional<NotFinite> find_not_finite(const Plan& plan, const State& state) {
     for (int group = 0; group < std::ssize(plan.groups); ++group) {
         const auto& g = plan.groups[group];
-        if (g.pruned || state.batches[g.batch].finite) continue;
-        for (int s = 0; s < std::ssize(g.depths); ++s) {
-            const double* row = state_row(state, plan, group, s, state.cycle);
+        if (g.pruned || state.groups[group].finite) continue;
+        for (int s = 0; s < std::ssize(g.states); ++s) {
+            const double* row = state_row(state.groups[group], g, s, state.cycle);
             for (Index cell = 0; cell < g.cells; ++cell)
                 if (!std::isfinite(row[cell])) return NotFinite{group, s, cell, state.cycle, row[cell]};
         }
@@ -105,7 +105,7 @@ void Simulation::update_groups() {
     else
         cycle.update_groups();
     if (!cycle.check_finite) return;
-    if (std::ranges::all_of(state->batches, &BatchState::finite)) return;
+    if (std::ranges::all_of(state->groups, &GroupState::finite)) return;
     not_finite = find_not_finite(*plan, *state);
     cycle.check_finite = !not_finite;
 }
@@ -159,20 +159,19 @@ ConstColumn Simulation::input(int group, InputKind kind) const {
     require_computed(*parts_->plan, group);
     if (!p.keeps_input)
         refuse_pruned(fmt::format("the input of group '{}'", layout().groups[group].path), "read_input()");
-    const auto& b = parts_->state->batches[p.batch];
-    return {b.inputs[static_cast<std::size_t>(kind)][b.row] + p.first, p.cells};
+    const auto& g = parts_->state->groups[group];
+    return {g.inputs[static_cast<std::size_t>(kind)][g.row], p.cells};
 }
 
 ConstColumn Simulation::state(int group, int state) const {
     require_computed(*parts_->plan, group);
-    return {state_row(*parts_->state, *parts_->plan, group, state, parts_->state->shown),
-            parts_->plan->groups[group].cells};
+    const auto& p = parts_->plan->groups[group];
+    return {state_row(parts_->state->groups[group], p, state, parts_->state->shown), p.cells};
 }
 
 bool Simulation::in_place(int group, int state) const {
     require_computed(*parts_->plan, group);
-    const auto& g = parts_->plan->groups[group];
-    return parts_->state->batches[g.batch].states[static_cast<std::size_t>(state)].depth == 1;
+    return parts_->state->groups[group].states[static_cast<std::size_t>(state)].depth == 1;
 }
 
 Column Simulation::output(int group) { return writable_state(group, layout().groups[group].type.output()); }
@@ -186,7 +185,7 @@ Column Simulation::writable_state(int group, int state) {
                         "Demand::overwrite_group() before Simulation::build()",
                         layout().groups[group].path));
     parts_->cycle.invalidate(group);
-    return {state_row(*parts_->state, *parts_->plan, group, state, parts_->state->shown), p.cells};
+    return {state_row(parts_->state->groups[group], p, state, parts_->state->shown), p.cells};
 }
 
 void Simulation::invalidate(int group) { parts_->cycle.invalidate(group); }

@@ -53,13 +53,12 @@ Trial try_cells(const NeuronType& type, const Given& given) {
     std::array<double*, input_kinds> columns{};
     for (auto& column : columns) column = buffers.emplace_back(cells).data();
     double* scratch = buffers.emplace_back(cells * NeuronColumns::scratch_columns).data();
-    const NeuronColumns::Stream stream{RandomStream(1, "contract")};
+    const RandomStream random(1, "contract");
     Trial out;
-    const auto neuron = make(type, stream.random, given.draw);
+    const auto neuron = make(type, random, given.draw);
     for (std::uint64_t cycle = 0; neuron && cycle < cycles; ++cycle) {
         for (std::size_t k = 0; k < input_kinds; ++k) std::fill_n(columns[k], cells, given.inputs[k]);
-        NeuronColumns all(cells, cells, cycle, columns, states, {&stream, 1}, scratch, {}, 0,
-                          given.undeclared);
+        NeuronColumns all(cells, cells, cycle, columns, states, random, scratch, {}, 0, given.undeclared);
         neuron->update(all);
         for (const auto& s : states) out.numbers.insert(out.numbers.end(), s.ring, s.ring + cells * s.depth);
     }

@@ -12,8 +12,7 @@
 
 namespace forage {
 
-/// The columns of one group in one cycle, for an update of all its cells at once. Groups of a type whose
-/// cells do not see each other may stand side by side, and are then updated like one.
+/// The columns of one group in one cycle, for an update of all its cells at once.
 ///
 /// A state's rows form a ring. `state(i)` is the row to be written in this cycle; before the update writes
 /// it, it holds the values of `history` cycles ago. With the usual history of 1 these are the values of the
@@ -23,12 +22,6 @@ class NeuronColumns {
     struct State {
         double* ring;        ///< first row of the ring
         std::int64_t depth;  ///< rows in the ring
-    };
-
-    /// The random numbers of the group whose cells begin at `first`.
-    struct Stream {
-        RandomStream random;
-        Index first = 0;
     };
 
     /// The number of draws of uniform numbers that have columns of their own. It holds for draws of events,
@@ -43,11 +36,10 @@ class NeuronColumns {
         double event = 1, random = 0;
     };
 
-    /// Covers the cells from `first`, in its group a multiple of RandomStream::grain, to `first` + `size` - 1
-    /// of rows that are `stride` apart. `inputs` and `states` point to cell 0. `streams` are in order of
-    /// cells, and the first one is that of cell `first`.
+    /// Covers the cells from `first`, a multiple of RandomStream::grain, to `first` + `size` - 1 of rows that
+    /// are `stride` apart. `inputs` and `states` point to cell 0.
     NeuronColumns(Index size, Index stride, std::uint64_t cycle, std::array<double*, input_kinds> inputs,
-                  std::span<const State> states, std::span<const Stream> streams, double* scratch,
+                  std::span<const State> states, const RandomStream& random, double* scratch,
                   std::array<bool, input_kinds> silent = {}, Index first = 0, Undeclared undeclared = {1, 0})
         : size_(size),
           stride_(stride),
@@ -55,7 +47,7 @@ class NeuronColumns {
           cycle_(cycle),
           inputs_(inputs),
           states_(states),
-          streams_(streams),
+          random_(random),
           scratch_(scratch),
           silent_(silent),
           undeclared_(undeclared) {}
@@ -95,18 +87,16 @@ class NeuronColumns {
     Column uniform(std::uint32_t draw = 0) const {
         time_invariant_ = false;
         double* out = scratch_ + draw % draws_kept * stride_;
-        each_stream({out, size_}, [&](const RandomStream& random, std::span<double> part, std::size_t first) {
-            random.uniform(cycle_, part, draw, first);
-        });
+        random_.uniform(cycle_, {out, static_cast<std::size_t>(size_)}, draw,
+                        static_cast<std::size_t>(first_));
         return {out, size_};
     }
     /// Sets out[i] = `value` with this probability, independently in each cell and cycle, else 0. This is
     /// many times faster than a comparison with uniform().
     void events(double probability, Column out, double value = 1, std::uint32_t draw = 0) const {
         time_invariant_ = false;
-        each_stream(out, [&](const RandomStream& random, std::span<double> part, std::size_t first) {
-            random.events(cycle_, probability, part, value, draw, first);
-        });
+        random_.events(cycle_, probability, {out.data(), static_cast<std::size_t>(out.size())}, value, draw,
+                       static_cast<std::size_t>(first_));
     }
     /// Returns a column that is 1 in cells with an event, else 0. Each draw has its own column, as in
     /// uniform().
@@ -120,18 +110,6 @@ class NeuronColumns {
     bool time_invariant() const { return time_invariant_; }
 
   private:
-    /// Calls visit(stream, its part of the column `out`, the part's first cell in its group) for each stream.
-    template <class Visit>
-    void each_stream(Column out, Visit visit) const {
-        Index begin = first_;
-        for (std::size_t k = 0; k < streams_.size(); ++k) {
-            const Index end = k + 1 < streams_.size() ? streams_[k + 1].first : first_ + out.size();
-            visit(streams_[k].random,
-                  std::span(out.data() + (begin - first_), static_cast<std::size_t>(end - begin)),
-                  static_cast<std::size_t>(begin - streams_[k].first));
-            begin = end;
-        }
-    }
     Column input(InputKind kind) const { return {inputs_[static_cast<std::size_t>(kind)] + first_, size_}; }
     double* row(int i, int ago) const {
         const auto index = static_cast<std::size_t>(i);  // a negative index becomes very large
@@ -147,7 +125,7 @@ class NeuronColumns {
     std::uint64_t cycle_;
     std::array<double*, input_kinds> inputs_;
     std::span<const State> states_;
-    std::span<const Stream> streams_;
+    RandomStream random_;
     double* scratch_;
     std::array<bool, input_kinds> silent_;
     Undeclared undeclared_;

@@ -66,12 +66,6 @@ class Kernel {
     /// Adds to each target cell the sum of what its synapses deliver, from 0 and in synapse order. With
     /// `first`, the sum replaces what the target holds.
     virtual void deliver(const KernelInput& in, double* target, bool first) const = 0;
-    /// Returns a kernel that also does what `next` does, whose source and target cells follow those of this
-    /// one; null when that cannot be one.
-    virtual std::unique_ptr<Kernel> joined(const Kernel& next) const {
-        static_cast<void>(next);
-        return nullptr;
-    }
     /// Returns the name of the form.
     virtual std::string_view form() const = 0;
     /// Estimates how long deliver() takes on one thread, in ns.

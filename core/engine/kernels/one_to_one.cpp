@@ -21,11 +21,6 @@ class OneToOne final : public Kernel {
     void deliver(const KernelInput& in, double* target, bool first) const override {
         (first ? put_scaled : add_scaled)(in.ago(delay_), in.synapse.gain(), factor_, cells_, target);
     }
-    std::unique_ptr<Kernel> joined(const Kernel& next) const override {
-        const auto* other = dynamic_cast<const OneToOne*>(&next);
-        if (!other || other->delay_ != delay_ || other->factor_ != factor_) return nullptr;
-        return std::make_unique<OneToOne>(cells_ + other->cells_, delay_, factor_);
-    }
     std::string_view form() const override { return "one to one"; }
     double cost() const override { return 0.4 * static_cast<double>(cells_); }
 

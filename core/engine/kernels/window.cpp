@@ -141,14 +141,11 @@ FORAGE_SIMD void scale_rows(const double* from, double gain, double factor, Inde
 
 class Window final : public SharedKernel {
   public:
-    /// `copies` of the same window stand one below the other.
-    explicit Window(connectivity::Regular regular, Index copies = 1)
-        : regular_(std::move(regular)), copies_(copies), width_(regular_.width), height_(regular_.height) {
-        const auto& r = regular_;
-        Index right = 0;
+    explicit Window(const connectivity::Regular& r) : width_(r.width), height_(r.height) {
+        Index right = 0, bottom = 0;
         for (const auto& tap : r.taps) {
             left_ = std::max<Index>(left_, -tap.dx), right = std::max<Index>(right, tap.dx);
-            top_ = std::max<Index>(top_, -tap.dy), bottom_ = std::max<Index>(bottom_, tap.dy);
+            top_ = std::max<Index>(top_, -tap.dy), bottom = std::max<Index>(bottom, tap.dy);
             if (std::find(delays_.begin(), delays_.end(), tap.delay) == delays_.end())
                 delays_.push_back(tap.delay);
             factors_.push_back(r.reference - tap.attenuation);
@@ -157,11 +154,11 @@ class Window final : public SharedKernel {
             std::all_of(factors_.begin(), factors_.end(), [&](double f) { return f == factors_.front(); });
         stride_ = left_ + width_ + right;
         const Index read_beyond = 3 * lanes;  // past the last cell of a row
-        frame_ = stride_ * frame_rows() + read_beyond;
+        frame_ = stride_ * (top_ + height_ + bottom) + read_beyond;
         for (std::size_t i = 0; i < r.taps.size(); ++i) {
             const auto& tap = r.taps[i];
             const auto d = std::find(delays_.begin(), delays_.end(), tap.delay) - delays_.begin();
-            const Index source = d * copies_ * frame_ + (top_ + tap.dy) * stride_ + left_ + tap.dx;
+            const Index source = d * frame_ + (top_ + tap.dy) * stride_ + left_ + tap.dx;
             if (i > 0 && source == columns_.back().source + columns_.back().taps * stride_)
                 ++columns_.back().taps;
             else
@@ -170,17 +167,18 @@ class Window final : public SharedKernel {
     }
     std::unique_ptr<Workspace> make_workspace() const override {
         auto out = std::make_unique<Frames>();
-        out->numbers.resize(static_cast<std::size_t>(copies_ * frame_) * delays_.size());
+        out->numbers.resize(static_cast<std::size_t>(frame_) * delays_.size());
         return out;
     }
     void prepare(const KernelInput& in, Part part) const override {
         const auto first = static_cast<Index>(part.first(height_)),
                    count = static_cast<Index>(part.last(height_)) - first;
         double* to = static_cast<Frames*>(in.workspace)->numbers.data() + (top_ + first) * stride_ + left_;
-        for (const int delay : delays_)
-            for (Index c = 0; c < copies_; ++c, to += frame_)
-                scale_rows(in.ago(delay) + (c * height_ + first) * width_, in.synapse.gain(),
-                           same_factor_ ? factors_.front() : 1, width_, count, stride_, to);
+        for (const int delay : delays_) {
+            scale_rows(in.ago(delay) + first * width_, in.synapse.gain(), same_factor_ ? factors_.front() : 1,
+                       width_, count, stride_, to);
+            to += frame_;
+        }
     }
     void add(const Workspace& frames, double* target, Part part) const override {
         // Pairs of rows: a single one costs more than half a pair.
@@ -188,40 +186,23 @@ class Window final : public SharedKernel {
         const auto first = static_cast<Index>(2 * part.first(pairs)),
                    last = std::min(static_cast<Index>(2 * part.last(pairs)), height_);
         const double* numbers = static_cast<const Frames&>(frames).numbers.data();
-        for (Index c = 0; c < copies_; ++c, numbers += frame_, target += height_ * width_)
-            (same_factor_ ? add_scaled_window : add_weighted_window)(
-                {numbers, columns_.data(), columns_.size(), width_, stride_}, first, last, target);
+        (same_factor_ ? add_scaled_window : add_weighted_window)(
+            {numbers, columns_.data(), columns_.size(), width_, stride_}, first, last, target);
     }
-    std::unique_ptr<Kernel> joined(const Kernel& next) const override {
-        const auto* other = dynamic_cast<const Window*>(&next);
-        if (!other || other->regular_.taps != regular_.taps ||
-            other->regular_.reference != regular_.reference || other->width_ != width_)
-            return nullptr;
-        if (frame_rows() == height_) {  // no row reads another one, so that all stand in one frame
-            auto rows = regular_;
-            rows.height += other->regular_.height;
-            return std::make_unique<Window>(std::move(rows));
-        }
-        if (other->height_ != height_) return nullptr;
-        return std::make_unique<Window>(regular_, copies_ + other->copies_);
-    }
-    Index target_cells() const override { return copies_ * width_ * height_; }
+    Index target_cells() const override { return width_ * height_; }
     std::string_view form() const override { return "window"; }
     double cost() const override {
-        return 0.07 * static_cast<double>(regular_.taps.size()) * static_cast<double>(target_cells());
+        return 0.07 * static_cast<double>(factors_.size()) * static_cast<double>(target_cells());
     }
 
   private:
-    Index frame_rows() const { return top_ + height_ + bottom_; }
-
-    /// The source's activity times the gain in a frame of zeros, once per delay and copy: a window may reach
+    /// The source's activity times the gain in a frame of zeros, once per delay: a window may reach
     /// out of the group, and what it reads there adds nothing.
     struct Frames final : Workspace {
         std::vector<double> numbers;
     };
 
-    connectivity::Regular regular_;
-    Index copies_, width_, height_, left_ = 0, top_ = 0, bottom_ = 0, stride_ = 0;
+    Index width_, height_, left_ = 0, top_ = 0, stride_ = 0;
     Index frame_ = 0;              ///< numbers in a frame
     std::vector<int> delays_;      ///< those that occur
     std::vector<double> factors_;  ///< of the taps

@@ -12,8 +12,8 @@
 namespace forage::engine {
 namespace {
 
-/// Small groups, and batches of them, go to one thread whole. The update of a large group whose cells are
-/// independent is divided, and so are its large deliveries. A thread gets the same batches and parts in every
+/// Small groups go to one thread whole. The update of a large group whose cells are
+/// independent is divided, and so are its large deliveries. A thread gets the same groups and parts in every
 /// cycle, as long as it is not late, so that what it wrote is in its own cache. Each cell has one writer, and
 /// each sum its order.
 class ParallelExecutor final : public Executor {
@@ -37,36 +37,36 @@ class ParallelExecutor final : public Executor {
 
     /// Where several groups fail, the exception of the first comes out.
     void update_groups() override {
-        for (auto& d : divided_updates_) d.runs = cycle_.begin_update(d.batch);
+        for (auto& d : divided_updates_) d.runs = cycle_.begin_update(d.group);
         auto work = [this](int i, int thread) {
-            const auto& [batch, part, divided] = updates_[i];
+            const auto& [group, part, divided] = updates_[i];
             if (divided < 0)
-                cycle_.update(batch, thread);
+                cycle_.update(group, thread);
             else if (divided_updates_[divided].runs)
-                found_[i] = cycle_.update_part(batch, part, thread);
+                found_[i] = cycle_.update_part(group, part, thread);
         };
         pool_.run(update_shares_, work);
         for (const auto& d : divided_updates_) {
             Cycle::Found all;
             for (int i = d.first; i < d.first + parts_; ++i) all.add(found_[i]);
-            if (d.runs) cycle_.end_update(d.batch, all);
-            if (!plan_.overwritten) cycle_.remember(d.batch);
+            if (d.runs) cycle_.end_update(d.group, all);
+            if (!plan_.overwritten) cycle_.remember(d.group);
         }
     }
     void deliver() override {
         auto work = [this](int i, int) { cycle_.deliver_to(deliveries_[i]); };
         pool_.run(delivery_shares_, work);
-        for (const int batch : divided_deliveries_) cycle_.deliver_to(batch, &share_);
+        for (const int group : divided_deliveries_) cycle_.deliver_to(group, &share_);
     }
 
   private:
     struct Update {
-        int batch;
+        int group;
         Part part;
-        int divided;  ///< in divided_updates_; -1: the batch is updated whole
+        int divided;  ///< in divided_updates_; -1: the group is updated whole
     };
     struct Divided {
-        int batch;
+        int group;
         int first;  ///< of its parts, in updates_
         bool runs;  ///< there is an update in this cycle
     };
@@ -74,18 +74,18 @@ class ParallelExecutor final : public Executor {
     /// Shares follow each other in order of groups, and cost about the same.
     void share_out(double min_task_ns) {
         std::vector<double> update_cost, delivery_cost;
-        for (int i = 0; i < std::ssize(plan_.batches); ++i) {
-            const auto& b = plan_.batches[i];
+        for (int i = 0; i < std::ssize(plan_.groups); ++i) {
+            const auto& g = plan_.groups[i];
+            if (g.pruned) continue;
             const auto worth = [&](double ns) { return ns >= parts_ * min_task_ns; };
-            const auto cells = static_cast<double>(b.cells);
-            const bool large = b.cells > static_cast<Index>(2 * RandomStream::grain);
-            const auto shared = [&](int d) {
-                const auto& c = plan_.connections[plan_.deliveries[d].connections.front()];
-                return dynamic_cast<const SharedKernel*>(c.kernel.get()) != nullptr;
+            const auto cells = static_cast<double>(g.cells);
+            const bool large = g.cells > static_cast<Index>(2 * RandomStream::grain);
+            const auto shared = [&](int c) {
+                return dynamic_cast<const SharedKernel*>(plan_.connections[c].kernel.get()) != nullptr;
             };
-            const bool deliver_in_parts = worth(b.delivery_cost) && std::ranges::any_of(b.deliveries, shared);
-            const double whole = cells + (deliver_in_parts ? 0 : b.delivery_cost);
-            if (b.elementwise && b.groups.size() == 1 && large && worth(cells)) {
+            const bool deliver_in_parts = worth(g.delivery_cost) && std::ranges::any_of(g.incoming, shared);
+            const double whole = cells + (deliver_in_parts ? 0 : g.delivery_cost);
+            if (plan_.layout.groups[i].type.elementwise && large && worth(cells)) {
                 divided_updates_.push_back({i, static_cast<int>(updates_.size()), false});
                 for (int p = 0; p < parts_; ++p) {
                     updates_.push_back({i, {p, parts_}, static_cast<int>(divided_updates_.size()) - 1});
@@ -140,7 +140,7 @@ class ParallelExecutor final : public Executor {
     std::vector<Update> updates_;
     std::vector<Divided> divided_updates_;
     std::vector<Cycle::Found> found_;                   ///< by update
-    std::vector<int> deliveries_, divided_deliveries_;  ///< batches
+    std::vector<int> deliveries_, divided_deliveries_;  ///< groups
     std::vector<int> update_shares_, delivery_shares_;  ///< see ThreadPool
 };
 

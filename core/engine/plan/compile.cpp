@@ -66,7 +66,6 @@ class Compiler {
             add_connections();
             if (budget_.exceeded()) budget_.report(diagnostics_);
             if (diagnostics_.errors() > errors_before) return {};
-            make_batches(*plan_, *state_, forms_);
             lay_out();
             order_steps(*plan_);
             state_->begin(*plan_);
@@ -104,13 +103,17 @@ class Compiler {
             const auto* g = order_.groups[i];
             auto& plan = plan_->groups.emplace_back();
             plan.cells = about.shape.cells;
+            plan.stride = Rows::stride(plan.cells);
+            plan.output = about.type.output();
             plan.pruned = pruned_.groups[i];
             plan.keeps_input = demand_.reads_input(i);
             plan.overwritten = demand_.overwrites(i);
             plan.random = RandomStream(options_.seed, about.id);
-            for (const auto& s : about.type.states) plan.depths.push_back(s.history);
             double rows = 2 * input_kinds;
-            for (const auto depth : plan.depths) rows += static_cast<double>(depth);
+            for (const auto& s : about.type.states) {
+                plan.states.push_back({0, s.history});
+                rows += static_cast<double>(s.history);
+            }
             state_->groups.emplace_back().neuron = make(about.type, g->neuron);
             if (plan.pruned) continue;
             budget_.add(rows, plan.cells, g->at,
@@ -166,6 +169,7 @@ class Compiler {
             if (!plan.kernel) continue;  // pruned, or reported
             auto& target = plan_->groups[plan.target];
             target.incoming.push_back(i);
+            target.delivery_cost += plan.kernel->cost();
             bool& fed = target.fed[static_cast<std::size_t>(plan.kind)];  // by a module, too
             plan.first = plan.effective && !fed;
             fed |= plan.effective;
@@ -248,8 +252,8 @@ class Compiler {
             for (const auto& r : c.synapse->feedback)
                 for (int s = 0; s < std::ssize(states); ++s)
                     if (r.name == f.name && r.target == states[s].name) state = s;
-            if (state >= 0 && target.depths[state] <= longest) {
-                auto& depth = target.depths[state];
+            if (state >= 0 && target.states[state].depth <= longest) {
+                auto& depth = target.states[state].depth;
                 budget_.add(
                     static_cast<double>(longest + 1 - depth), target.cells, c.at,
                     fmt::format("connection '{}': delay {} x {} cells", c.name, longest, target.cells));
@@ -263,20 +267,21 @@ class Compiler {
     /// What every cycle touches lies together: states and one row of each input that is delivered.
     void lay_out() {
         Rows& rows = plan_->rows;
-        for (auto& b : plan_->batches) {
+        for (auto& g : plan_->groups) {
+            if (g.pruned) continue;
             const auto before = rows.size();
-            for (auto& s : b.states) s.first = rows.reserve(b.cells, s.depth);
-            b.numbers = static_cast<Index>(rows.size() - before);
+            for (auto& s : g.states) s.first = rows.reserve(g.cells, s.depth);
+            g.numbers = static_cast<Index>(rows.size() - before);
             for (std::size_t k = 0; k < input_kinds; ++k)
-                if (b.fed[k]) b.inputs[k] = {rows.reserve(b.cells), 0};
+                if (g.fed[k]) g.inputs[k] = {rows.reserve(g.cells), 0};
         }
-        for (auto& b : plan_->batches) {
-            const bool keeps_input = plan_->groups[b.groups.front()].keeps_input;
+        for (auto& g : plan_->groups) {
+            if (g.pruned) continue;
             for (std::size_t k = 0; k < input_kinds; ++k) {
-                if (!b.fed[k]) b.inputs[k][0] = rows.reserve(b.cells);
-                b.inputs[k][1] = keeps_input ? rows.reserve(b.cells) : b.inputs[k][0];
+                if (!g.fed[k]) g.inputs[k][0] = rows.reserve(g.cells);
+                g.inputs[k][1] = g.keeps_input ? rows.reserve(g.cells) : g.inputs[k][0];
             }
-            if (b.history > 0) b.past = rows.reserve(b.cells, b.history + 1);
+            if (g.history > 0) g.past = rows.reserve(g.cells, g.history + 1);
         }
         for (std::size_t i = 0; i < plan_->modules.size(); ++i)
             for (const int g : layout_.modules[i].output_groups)
@@ -304,18 +309,20 @@ Compiled compile(const model::System& system, Layout layout, const Demand& deman
 }
 
 void order_steps(Plan& plan) {
-    std::vector<std::vector<int>> after(plan.batches.size());
-    for (int i = 0; i < std::ssize(plan.batches); ++i) {
-        const auto& b = plan.batches[i];
-        if (plan.overwritten || !b.module_inputs.empty()) {
+    std::vector<std::vector<int>> after(plan.groups.size());
+    for (int i = 0; i < std::ssize(plan.groups); ++i) {
+        const auto& g = plan.groups[i];
+        if (g.pruned) continue;
+        if (plan.overwritten || !g.module_inputs.empty()) {
             plan.late.push_back(i);
             continue;
         }
         int last = i;
-        for (const int d : b.deliveries) last = std::max(last, plan.deliveries[d].source);
+        for (const int c : g.incoming) last = std::max(last, plan.connections[c].source);
         after[last].push_back(i);
     }
-    for (int i = 0; i < std::ssize(plan.batches); ++i) {
+    for (int i = 0; i < std::ssize(plan.groups); ++i) {
+        if (plan.groups[i].pruned) continue;
         plan.steps.push_back({i, false});
         for (const int receiver : after[i]) plan.steps.push_back({receiver, true});
     }

@@ -31,10 +31,6 @@ struct Pruned {
 /// Finds the groups on which neither the demand nor an input of a module depends.
 Pruned prune(const Layout& layout, const Demand& demand);
 
-/// Gathers groups in batches, and connections in deliveries: sets Plan::batches and Plan::deliveries, except
-/// for where the numbers stand. With Forms::general each group and each connection stays alone.
-void make_batches(Plan& plan, State& state, Forms forms);
-
 /// Orders the updates and deliveries of a cycle: sets Plan::steps and Plan::late.
 void order_steps(Plan& plan);
 

@@ -14,43 +14,25 @@
 namespace forage::engine {
 
 struct GroupPlan {
-    Index cells = 0;
+    Index cells = 0, stride = 0;          ///< stride: from row to row
     bool pruned = false;                  ///< nothing that is demanded depends on it
     bool keeps_input = true;              ///< else what is delivered takes the place of what was read
     bool overwritten = false;             ///< from outside
-    std::vector<std::int64_t> depths;     ///< of its states: cycles that are kept
+    int output = 0;                       ///< the state that is the activity
     int history = 0;                      ///< longest delay of the connections that read its activity
     std::array<bool, input_kinds> fed{};  ///< the type reads this kind of input, and something delivers it
     std::vector<int> incoming;            ///< connections that end here, in order
+    double delivery_cost = 0;             ///< of all of them, ns
     std::vector<std::pair<int, int>> module_inputs;  ///< modules and ports that write to it, in order
     RandomStream random;
 
-    // Its cells stand from `first` on in the rows of a batch; -1: it is pruned.
-    int batch = -1;
-    Index first = 0;
-};
-
-/// Groups that are updated as one, because nothing but their random numbers tells them apart: their cells
-/// stand side by side. Most batches of most systems are a single group.
-struct BatchPlan {
-    std::vector<int> groups;
-    std::vector<NeuronColumns::Stream> streams;      ///< of each group
-    Index cells = 0, stride = 0;                     ///< stride: from row to row
-    Index numbers = 0;                               ///< of all rows of its states
-    int output = 0;                                  ///< the state that is the activity
-    int history = 0;                                 ///< as in GroupPlan
-    bool elementwise = false;                        ///< as in NeuronType
-    std::array<bool, input_kinds> fed{};             ///< as in GroupPlan
-    std::vector<std::pair<int, int>> module_inputs;  ///< as in GroupPlan
-    std::vector<int> deliveries;                     ///< in order
-    double delivery_cost = 0;                        ///< of all of them, ns
-
     // Where its numbers stand in State::numbers.
-    struct Rings {
+    struct StateRing {
         Rows::Offset first;
-        std::int64_t depth;  ///< rows; row t % depth is that of cycle t
+        std::int64_t depth;  ///< rows: cycles that are kept; row t % depth is that of cycle t
     };
-    std::vector<Rings> states;
+    std::vector<StateRing> states;
+    Index numbers = 0;                                              ///< of all rows of its states
     std::array<std::array<Rows::Offset, 2>, input_kinds> inputs{};  ///< two rows, the same one if not kept
     Rows::Offset past = 0;  ///< ring of history + 1 rows of activity; none when history is 0
 };
@@ -65,12 +47,10 @@ struct ConnectionPlan {
     std::unique_ptr<const Kernel> kernel;    ///< null when it is pruned
     const PlasticKernel* plastic = nullptr;  ///< the kernel, when its synapses have an update()
     int source = 0, target = 0;
-    Index source_first = 0, target_first = 0;  ///< of their cells, in their batches
     int longest_delay = 0;
     InputKind kind = InputKind::excitatory;
     bool effective = true;      ///< the target's type reads this kind of input
     bool first = false;         ///< nothing delivers this kind of input to the target before it
-    int delivery = -1;          ///< through which it delivers; none when it is pruned
     bool pruned = false;        ///< nothing that is demanded depends on it
     bool reads_states = false;  ///< of its synapses, from outside
     std::vector<int> feedback;  ///< for a plastic one: states of the target, -1 for an unset one
@@ -81,31 +61,21 @@ struct ConnectionPlan {
     std::vector<int> pre, post;
 };
 
-/// Connections that deliver as one, because nothing tells them apart: their sources stand side by side, and
-/// so do their targets. Most deliveries of most systems are a single connection.
-struct DeliveryPlan {
-    std::vector<int> connections;
-    std::unique_ptr<const Kernel> joint;  ///< of all of them; null for a single one
-    int source = 0, target = 0;           ///< batches
-};
-
 /// A compiled system. Groups, modules and connections have the numbers of the layout.
 struct Plan {
     Layout layout;
     std::vector<GroupPlan> groups;
     std::vector<ModulePlan> modules;
     std::vector<ConnectionPlan> connections;
-    std::vector<BatchPlan> batches;  ///< of all groups that are not pruned
-    std::vector<DeliveryPlan> deliveries;
     Rows rows;  ///< of all numbers
 
     /// Updates of a cycle, and deliveries that need not wait for modules; cycle.h explains them.
     struct Step {
-        int batch;
+        int group;
         bool deliver;  ///< else update
     };
     std::vector<Step> steps;
-    std::vector<int> late;     ///< batches that are delivered to after the modules, in order
+    std::vector<int> late;     ///< groups that are delivered to after the modules, in order
     bool overwritten = false;  ///< activities of some groups may change between phases
 };
 

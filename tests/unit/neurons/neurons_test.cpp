@@ -26,9 +26,9 @@ struct Cells {
         Eigen::ArrayXd excitation(stride), inhibition = Eigen::ArrayXd::Zero(stride),
                                            modulation = Eigen::ArrayXd::Zero(stride), scratch(stride);
         excitation << nan, 5;
-        const NeuronColumns::Stream stream{RandomStream(1, "group")};
+        const RandomStream random(1, "group");
         NeuronColumns columns(stride, stride, 0, {excitation.data(), inhibition.data(), modulation.data()},
-                              states, {&stream, 1}, scratch.data());
+                              states, random, scratch.data());
         type.make()->update(columns);
         output = rings[static_cast<std::size_t>(type.output())].head(stride);
         if (type.states[0].name == "vm") potential = rings[0].head(stride);
@@ -78,22 +78,22 @@ TEST_CASE("The hyperbolic tangent leaks like the other types, and is odd around 
 
 TEST_CASE(
     "A group gets the same random numbers for the same draw of a cycle, others for another draw or cycle") {
-    const NeuronColumns::Stream stream{RandomStream(1, "group")};
+    const RandomStream random(1, "group");
     Eigen::ArrayXd scratch(3 * NeuronColumns::scratch_columns);
     const auto draws = [&](std::uint64_t cycle, std::uint32_t draw) -> Eigen::ArrayXd {
-        return NeuronColumns(3, 3, cycle, {}, {}, {&stream, 1}, scratch.data()).uniform(draw);
+        return NeuronColumns(3, 3, cycle, {}, {}, random, scratch.data()).uniform(draw);
     };
-    CHECK((draws(5, 0) == NeuronColumns(3, 3, 5, {}, {}, {&stream, 1}, scratch.data()).uniform()).all());
+    CHECK((draws(5, 0) == NeuronColumns(3, 3, 5, {}, {}, random, scratch.data()).uniform()).all());
     CHECK((draws(5, 1) == draws(5, 1)).all());
     CHECK((draws(5, 0) != draws(5, 1)).all());
     CHECK((draws(5, 1) != draws(6, 1)).all());
 }
 
 TEST_CASE("The columns of several draws of one update are valid at the same time") {
-    const NeuronColumns::Stream stream{RandomStream(1, "group")};
+    const RandomStream random(1, "group");
     constexpr int cells = 1000;
     Eigen::ArrayXd scratch(cells * NeuronColumns::scratch_columns);
-    const NeuronColumns c(cells, cells, 0, {}, {}, {&stream, 1}, scratch.data());
+    const NeuronColumns c(cells, cells, 0, {}, {}, random, scratch.data());
     const Eigen::ArrayXd first = c.uniform(0), events = c.events(0.5, 0);
     const Eigen::ArrayXd both = c.uniform(0) + c.uniform(1) + c.uniform(2) + c.uniform(3);
     CHECK(both.mean() == Approx(2).margin(0.1));

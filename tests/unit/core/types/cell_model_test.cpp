@@ -56,7 +56,7 @@ struct Group {
     std::vector<Eigen::ArrayXd> rings, inputs{input_kinds, Eigen::ArrayXd::Zero(cells)};
     std::vector<NeuronColumns::State> states;
     Eigen::ArrayXd scratch = Eigen::ArrayXd::Zero(cells * NeuronColumns::scratch_columns);
-    NeuronColumns::Stream stream{RandomStream(1, "group")};
+    RandomStream random{1, "group"};
 
     explicit Group(NeuronType t, Index depth = 1) : type(std::move(t)) {
         for (const auto& s : type.states)
@@ -65,8 +65,8 @@ struct Group {
     }
     NeuronColumns columns(std::uint64_t cycle, std::array<bool, input_kinds> silent, Index first,
                           Index count) {
-        return {count,  cells,        cycle,          {inputs[0].data(), inputs[1].data(), inputs[2].data()},
-                states, {&stream, 1}, scratch.data(), silent,
+        return {count,  cells,  cycle,          {inputs[0].data(), inputs[1].data(), inputs[2].data()},
+                states, random, scratch.data(), silent,
                 first};
     }
     /// Whether the update was time-invariant.
