@@ -12,13 +12,15 @@
 
 #include "core/base/philox.h"
 #include "core/base/random.h"
+#include "core/base/simd.h"
 
 namespace forage {
 namespace {
 
 using philox::Draw;
 
-constexpr std::size_t lanes = philox::lanes, batch = 8 * lanes;
+constexpr std::size_t lanes = 8, batch = 8 * lanes;
+constexpr std::size_t together = 8;  ///< batches
 constexpr std::uint32_t events_stream = 0x80000000u,
                         ties_stream = 0xc0000000u;  // different from those of uniform()
 
@@ -40,96 +42,54 @@ bool tie_is_active(const Draw& d, std::size_t cell, const Threshold& t) {
     return (std::uint64_t{r[0]} << 5 | r[1] >> 27) >= t.rest;
 }
 
-void batch_by_cell(const Draw& d, std::size_t number, const Threshold& t, double value, double* out) {
+/// Computes `count` batches from the `number`-th on, but leaves cells silent whose bits are equal to `top`.
+/// Returns whether there is one.
+FORAGE_SIMD bool compare_batches(const Draw& d, std::size_t number, std::size_t count, std::uint32_t top,
+                                 double value, double* out) {
+    const Draw own = d;  // what is stored cannot change it
+    const auto first = static_cast<std::uint32_t>(number * lanes),
+               blocks = static_cast<std::uint32_t>(count * lanes);
+    std::uint32_t words[4][together * lanes];
+    for (std::uint32_t i = 0; i < blocks; ++i) {
+        const auto block = philox::block(own, first + i, events_stream);
+        for (std::size_t j = 0; j < 4; ++j) words[j][i] = block[j];
+    }
+    std::int32_t bits[together * batch], *to = bits;  // by cell
+    for (std::size_t k = 0; k < blocks; k += lanes)
+        for (std::size_t j = 0; j < 4; ++j, to += 2 * lanes)
+            for (std::size_t l = 0; l < lanes; ++l) {
+                to[l] = static_cast<std::int32_t>(words[j][k + l] & 0xffffu);
+                to[l + lanes] = static_cast<std::int32_t>(words[j][k + l] >> 16);
+            }
+    int ties = 0;
+    for (std::size_t cell = 0; cell < count * batch; ++cell) {
+        ties |= bits[cell] == static_cast<std::int32_t>(top);
+        out[cell] = bits[cell] > static_cast<std::int32_t>(top) ? value : 0.0;
+    }
+    return ties != 0;
+}
+
+/// Decides the cells of a batch whose bits are equal to `t.top`.
+void break_ties(const Draw& d, std::size_t number, const Threshold& t, double value, double* out) {
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         const auto words = philox::block(d, static_cast<std::uint32_t>(number * lanes + lane), events_stream);
         for (std::size_t part = 0; part < 8; ++part) {
-            const std::uint32_t bits = words[part / 2] >> 16 * (part % 2) & 0xffffu;
             const std::size_t cell = part * lanes + lane;
-            const bool active = bits > t.top || (bits == t.top && tie_is_active(d, number * batch + cell, t));
-            out[cell] = active ? value : 0.0;
+            if ((words[part / 2] >> 16 * (part % 2) & 0xffffu) == t.top &&
+                tie_is_active(d, number * batch + cell, t))
+                out[cell] = value;
         }
     }
 }
-
-#ifdef FORAGE_AVX2
-
-/// Computes `count` batches, with the same numbers as batch_by_cell().
-FORAGE_AVX2 void batches_by_lanes(const Draw& d, std::size_t number, std::size_t count, const Threshold& t,
-                                  double value, double* out) {
-    const philox::Rounds rounds(d, events_stream);
-    // 16 cells are compared at a time, as signed numbers. No cell is equal to or above a `top` of 65536.
-    const __m256i sign = _mm256_set1_epi16(-0x8000);
-    const __m256i top = _mm256_set1_epi16(static_cast<short>(std::min(t.top, 0xffffu) - 0x8000u));
-    const __m256d active = _mm256_set1_pd(t.top <= 0xffffu ? value : 0.0);
-    // Shuffles that widen masks from 16 to 64 bits, for the low and the high halves of blocks 0 to 3, then of
-    // 4 to 7.
-    const __m256i lane = _mm256_setr_epi64x(0, 0x0808080808080808, 0, 0x0808080808080808);
-    __m256i picks[4];
-    for (int i = 0; i < 4; ++i)
-        picks[i] = _mm256_or_si256(lane, _mm256_set1_epi16(static_cast<short>(0x0100 + 0x0202 * i)));
-    constexpr std::size_t cells[4] = {0, lanes, 4, lanes + 4};
-
-    for (; count > 0; ++number, --count) {
-        __m256i words[2][4];
-        philox::blocks(rounds, static_cast<std::uint32_t>(number * lanes), words);
-        __m256i ties = _mm256_setzero_si256();
-        for (int word = 0; word < 4; ++word, out += 2 * lanes) {
-            const __m256i both =
-                _mm256_blend_epi32(words[0][word], _mm256_slli_epi64(words[1][word], 32), 0xaa);
-            const __m256i bits = _mm256_xor_si256(both, sign);
-            const __m256i above = _mm256_cmpgt_epi16(bits, top);
-            ties = _mm256_or_si256(ties, _mm256_cmpeq_epi16(bits, top));
-            for (int i = 0; i < 4; ++i) {
-                const __m256i mask = _mm256_shuffle_epi8(above, picks[i]);
-                _mm256_storeu_pd(out + cells[i], _mm256_and_pd(active, _mm256_castsi256_pd(mask)));
-            }
-        }
-        if (!_mm256_testz_si256(ties, ties)) batch_by_cell(d, number, t, value, out - batch);
-    }
-}
-
-/// Computes `many` batches at a time.
-template <int many>
-FORAGE_AVX512 void batches_by_wide_lanes(const Draw& d, const philox::Rounds& rounds, std::size_t number,
-                                         const Threshold& t, double value, double* out) {
-    __m512i words[many][4];
-    philox::blocks(rounds, static_cast<std::uint32_t>(number * lanes), words);
-    const __m512i top = _mm512_set1_epi64(t.top), half = _mm512_set1_epi64(0xffff);
-    const __m512d active = _mm512_set1_pd(value);
-    for (const auto& batch_words : words) {
-        unsigned ties = 0;
-        for (int part = 0; part < 8; ++part, out += lanes) {
-            const __m512i word = batch_words[part / 2];
-            const __m512i bits = _mm512_and_epi64(
-                part % 2 ? _mm512_maskz_srli_epi64(philox::all_lanes, word, 16) : word, half);
-            ties |= _mm512_cmpeq_epi64_mask(bits, top);
-            _mm512_storeu_pd(out, _mm512_maskz_mov_pd(_mm512_cmpgt_epi64_mask(bits, top), active));
-        }
-        if (ties) batch_by_cell(d, number, t, value, out - batch);
-        ++number;
-    }
-}
-
-#endif
 
 /// Computes `count` batches, beginning with the `number`-th.
-void batches(philox::InstructionSet set, const Draw& d, std::size_t number, std::size_t count,
-             const Threshold& t, double value, double* out) {
-#ifdef FORAGE_AVX2
-    if (set == philox::InstructionSet::avx512) {
-        const philox::Rounds rounds(d, events_stream);
-        constexpr std::size_t together = 2;
-        for (; count >= together; number += together, count -= together, out += together * batch)
-            batches_by_wide_lanes<together>(d, rounds, number, t, value, out);
-        for (; count > 0; ++number, --count, out += batch)
-            batches_by_wide_lanes<1>(d, rounds, number, t, value, out);
-        return;
+void batches(const Draw& d, std::size_t number, std::size_t count, const Threshold& t, double value,
+             double* out) {
+    for (std::size_t n; count > 0; number += n, count -= n, out += n * batch) {
+        n = std::min(count, together);
+        if (!compare_batches(d, number, n, t.top, value, out)) continue;
+        for (std::size_t k = 0; k < n; ++k) break_ties(d, number + k, t, value, out + k * batch);
     }
-    if (set == philox::InstructionSet::avx2) return batches_by_lanes(d, number, count, t, value, out);
-#endif
-    static_cast<void>(set);
-    for (; count > 0; ++number, --count, out += batch) batch_by_cell(d, number, t, value, out);
 }
 
 }  // namespace
@@ -137,18 +97,13 @@ void batches(philox::InstructionSet set, const Draw& d, std::size_t number, std:
 void RandomStream::events(std::uint64_t cycle, double probability, std::span<double> out, double value,
                           std::uint32_t draw, std::size_t first) const {
     static_assert(grain == batch);
-    static const auto set = philox::best_instruction_set();
-    philox::events(set, philox::draw_of(key_, cycle, draw), probability, out, value, first);
-}
-
-void philox::events(InstructionSet set, const Draw& d, double probability, std::span<double> out,
-                    double value, std::size_t first) {
+    const Draw d = philox::draw_of(key_, cycle, draw);
     const Threshold threshold(probability);
     const std::size_t whole = out.size() / batch, before = first / batch;
-    batches(set, d, before, whole, threshold, value, out.data());
+    batches(d, before, whole, threshold, value, out.data());
     if (const std::size_t left = out.size() % batch) {
         std::array<double, batch> last;
-        batches(set, d, before + whole, 1, threshold, value, last.data());
+        batches(d, before + whole, 1, threshold, value, last.data());
         std::copy_n(last.begin(), left, out.end() - static_cast<std::ptrdiff_t>(left));
     }
 }
