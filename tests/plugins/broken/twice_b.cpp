@@ -1,19 +1,19 @@
 // The same name as another plugin's, twice_a.cpp.
 #include <forage/plugin.h>
 
-struct Twice {
+struct TwiceAgain {
     double gain = 1;
 
     struct Cell {
         double act = 0;
     };
 
-    static void describe(forage::NeuronSpec<Twice>& s) {
+    static void describe(forage::NeuronSpec<TwiceAgain>& s) {
         s.name("neuronTwice", "Twice").doc("Broken on purpose.").reads(forage::InputKind::excitatory);
-        s.param("gain", &Twice::gain).doc("Factor.");
+        s.param("gain", &TwiceAgain::gain).doc("Factor.");
         s.output("act", &Cell::act, "Activity");
     }
     void update(Cell& c, const forage::Input& in) const { c.act = in.excitation; }
 };
 
-FORAGE_PLUGIN(Twice);
+FORAGE_PLUGIN(TwiceAgain);
