@@ -15,8 +15,6 @@ class DocumentState {
   problems = $derived<DocumentProblem[]>(this.message?.problems ?? []);
   /** Whether the text has a system that forms can change. */
   readable = $derived(this.message?.readable ?? true);
-  /** Whether the server can edit. */
-  editable = $derived(this.message !== null);
   errors = $derived(this.problems.filter((p) => p.severity !== 'warning').length);
   /** Problems by the item that they are about. */
   private byItem = $derived.by(() => {

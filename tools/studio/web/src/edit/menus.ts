@@ -1,12 +1,10 @@
 // The menus of items, the same in the diagram and in the tree.
 import type { PageLine } from '../panels/diagram';
-import type { ConnectionKind } from '../protocol/messages';
 import { dock } from '../stores/dock.svelte';
 import { frame } from '../stores/frame.svelte';
 import { model } from '../stores/model.svelte';
 import { selection } from '../stores/selection.svelte';
 import { copy, cut, withConnections } from './clipboard';
-import { editing } from './document.svelte';
 import { fileDialog } from './file.svelte';
 import type { Entries } from './menu.svelte';
 import { edit } from './operations';
@@ -37,9 +35,12 @@ export function itemMenu(id: string): Entries {
   // The connections between several groups come along, or stay.
   const joined = withConnections(ids).length > ids.length;
   const copies: Entries = joined ? [{ label: 'Copy with connections', keys: 'Ctrl C', act: () => copy(ids) }, { label: 'Copy groups only', act: () => copy(ids, false) }] : [{ label: 'Copy', keys: 'Ctrl C', act: () => copy(ids) }];
-  const editEntries: Entries = editing.editable
-    ? [null, ...(ids.some((i) => model.find(i)?.kind === 'process') ? [{ label: 'Copy', keys: 'Ctrl C', act: () => copy(ids) }] : copies), { label: 'Cut', keys: 'Ctrl X', act: () => cut(ids) }, { label: ids.length > 1 ? `Delete ${ids.length} items` : 'Delete', keys: 'Del', act: () => removeItems(ids) }]
-    : [];
+  const editEntries: Entries = [
+    null,
+    ...(ids.some((i) => model.find(i)?.kind === 'process') ? [{ label: 'Copy', keys: 'Ctrl C', act: () => copy(ids) }] : copies),
+    { label: 'Cut', keys: 'Ctrl X', act: () => cut(ids) },
+    { label: ids.length > 1 ? `Delete ${ids.length} items` : 'Delete', keys: 'Del', act: () => removeItems(ids) },
+  ];
   if (ids.length > 1) {
     const groups = ids.flatMap((i) => model.group(i)?.path ?? []);
     const connections = ids.flatMap((i) => {
@@ -56,16 +57,13 @@ export function itemMenu(id: string): Entries {
     if (weighed.length) plots.push({ label: 'Weights', act: () => weighed.forEach((c) => dock.plot({ kind: 'weights', item: model.nameFor(c), state: c.states[0]!.name })) });
     return plots.length ? [...plots, ...editEntries] : editEntries.slice(1);
   }
-  if (item.kind === 'comment') return [...(editing.editable ? [{ label: 'Write', keys: 'Enter', act: () => rename(id) }] : []), { label: 'Properties', act: () => properties(id) }, ...editEntries];
-  const first: Entries = [{ label: 'Properties', keys: 'Enter', act: () => properties(id) }];
-  if (editing.editable) first.push({ label: 'Rename', keys: 'F2', act: () => rename(id) });
+  if (item.kind === 'comment') return [{ label: 'Write', keys: 'Enter', act: () => rename(id) }, { label: 'Properties', act: () => properties(id) }, ...editEntries];
+  const first: Entries = [{ label: 'Properties', keys: 'Enter', act: () => properties(id) }, { label: 'Rename', keys: 'F2', act: () => rename(id) }];
   if (item.kind === 'group') {
     const path = item.group.path;
-    if (editing.editable) first.push({ label: 'Connect…', act: () => (tools.dialog = { source: id, kind: 'excitatory' as ConnectionKind }) });
-    first.push(null, { label: 'Space plot', act: () => dock.plot({ kind: 'space', item: path }) }, { label: 'Time plot', act: () => dock.plot({ kind: 'time', sources: [`mean(${path})`] }) }, { label: 'Drive by hand', act: () => dock.plot({ kind: 'manipulate', item: path }) });
+    first.push({ label: 'Connect…', act: () => (tools.dialog = { source: id, kind: 'excitatory' }) }, null, { label: 'Space plot', act: () => dock.plot({ kind: 'space', item: path }) }, { label: 'Time plot', act: () => dock.plot({ kind: 'time', sources: [`mean(${path})`] }) }, { label: 'Drive by hand', act: () => dock.plot({ kind: 'manipulate', item: path }) });
   } else if (item.kind === 'process') {
-    first.push({ label: 'Show its groups', act: () => (selection.process = id) });
-    if (editing.editable) first.push({ label: 'Export…', act: () => fileDialog.open('export', id) });
+    first.push({ label: 'Show its groups', act: () => (selection.process = id) }, { label: 'Export…', act: () => fileDialog.open('export', id) });
   } else {
     first.push(null, { label: 'Wiring', act: () => dock.plot({ kind: 'wiring', item: model.nameFor(item.connection) }) });
     for (const s of item.connection.states) first.push({ label: s.label, act: () => dock.plot({ kind: 'weights', item: model.nameFor(item.connection), state: s.name }) });

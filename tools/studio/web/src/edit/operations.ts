@@ -2,8 +2,7 @@
 import type { Operation } from '../protocol/commands';
 import type { ConnectionKind, ParameterInfo, ParameterValue } from '../protocol/messages';
 import { actions } from '../stores/actions.svelte';
-import { command, request } from '../studio';
-import { editing } from './document.svelte';
+import { request } from '../studio';
 
 /** Sends operations, all of them or none. Resolves with the ids that were made. Rejects when they are refused, for a form that says so at its field. */
 export async function attempt(operations: Operation | Operation[], title?: string, merge?: string): Promise<(string | null)[]> {
@@ -17,8 +16,7 @@ export const edit = (operations: Operation | Operation[], title?: string, merge?
 
 /** Sets a parameter of items, in the document and in the run. */
 export function setParameter(ids: string[], p: ParameterInfo, value: ParameterValue): void {
-  if (!editing.editable) void command('set', { assignments: [`${p.assignment}=${value}`] });
-  else void edit(ids.map((id) => ({ do: 'parameter', id, name: p.name, value: String(value) })), undefined, `${ids.join()}.${p.name}`);
+  void edit(ids.map((id) => ({ do: 'parameter', id, name: p.name, value: String(value) })), undefined, `${ids.join()}.${p.name}`);
 }
 
 export interface NewConnection {

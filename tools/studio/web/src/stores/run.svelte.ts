@@ -14,10 +14,6 @@ class RunState {
   superseded = $state(0);
   /** Cycles between the run and what the page shows. */
   lag = $state(0);
-
-  can(capability: string): boolean {
-    return this.hello?.capabilities.includes(capability) ?? false;
-  }
 }
 
 export const run = new RunState();

@@ -47,11 +47,6 @@ describe('edits', () => {
     setParameter(['a', 'b'], threshold, 0.5);
     expect(sent).toEqual([{ name: 'edit', merge: 'a,b.threshold', operations: ['a', 'b'].map((id) => ({ do: 'parameter', id, name: 'threshold', value: '0.5' })) }]);
   });
-  it('sets it in the run where the server does not edit', () => {
-    editing.message = null;
-    setParameter(['a'], threshold, 0.5);
-    expect(sent).toEqual([{ name: 'set', assignments: ['P/a.threshold=0.5'] }]);
-  });
   it('gives the id of a new connection', async () => {
     answers.edit = { ids: ['new'] };
     expect(await connect({ source: 'a', target: 'b', kind: 'inhibitory', source_anchor: 4, target_anchor: 12, vertices: [] })).toBe('new');
