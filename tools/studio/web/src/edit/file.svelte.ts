@@ -9,18 +9,64 @@ import { CommandError } from '../connection';
 import { baseName, editing, folderOf, sendAll } from './document.svelte';
 import { worldFile } from './world.svelte';
 
-export type FileAction = 'open' | 'save as' | 'import' | 'link' | 'export' | 'new' | 'world' | 'save the world' | 'other';
+type FileAction = 'open' | 'save as' | 'import' | 'link' | 'export' | 'new' | 'world' | 'save the world';
 
-/** What a panel does with a file that is chosen; `ending` is added to a name without it. */
-interface FileTask { title: string; verb: string; ending: string; name?: string; act(file: string, overwrite: boolean): Promise<unknown> }
+/** A task of the dialog: which file it needs, and what it does with the file. */
+interface FileTask {
+  title: string;
+  verb: string;
+  /** The files that are listed; without it, those with the ending. */
+  files?: RegExp;
+  /** Added to a name that is none of these files. */
+  ending?: string;
+  name?: string;
+  folder?: string;
+  act(file: string, overwrite: boolean): Promise<unknown>;
+}
+
+const saved = ({ file }: { file: string }) => actions.notify('info', `Saved as ${baseName(file)}.`);
+const world = () => worldFile.document?.file ?? model.world?.file ?? '';
+
+const tasks: Record<FileAction, (process: string) => FileTask> = {
+  open: () => ({ title: 'Open a system', verb: 'Open', files: /\.(iqr|xml|world)$/, act: (system) => request('open', { system, world: fileDialog.world.trim() }) }),
+  'save as': () => ({
+    title: 'Save as', verb: 'Save', files: /\.(iqr|xml)$/, ending: '.iqr',
+    name: baseName(editing.backupOf ?? editing.file) || `${model.system?.name || 'system'}.iqr`,
+    folder: editing.shipped ? '.' : '', // a system that comes with Forage is saved where the studio was started
+    act: async (file, overwrite) => {
+      await sendAll();
+      saved(await request('save', { file, overwrite }));
+    },
+  }),
+  import: () => ({ title: 'Import a process', verb: 'Import', files: /\.(iqrprocess|iqr)$/i, act: (file) => request('import', { file, link: false }) }),
+  link: () => ({ title: 'Link a process', verb: 'Link', files: /\.(iqrprocess|iqr)$/i, act: (file) => request('import', { file, link: true }) }),
+  export: (process) => ({
+    title: 'Export the process', verb: 'Export', files: /\.iqrprocess$/i,
+    name: `${model.processes.find((p) => p.id === process)?.name}.iqrProcess`,
+    act: (file, overwrite) => request('export', { process, file, overwrite }),
+  }),
+  new: () => ({ title: 'New system', verb: 'Create', files: /\.world$/, act: () => request('new', { name: fileDialog.name.trim() || 'New system', world: fileDialog.world.trim() }) }),
+  // A world finds its models from its own folder.
+  world: () => ({
+    title: 'Another world', verb: 'Open', files: /\.world$/, folder: folderOf(world()),
+    act: async (file) => {
+      await request('world_open', { world: file });
+      actions.notify('info', `The run restarts in ${baseName(file)}.`);
+    },
+  }),
+  'save the world': () => ({
+    title: 'Save the world as', verb: 'Save', ending: '.world', name: baseName(world()), folder: folderOf(world()),
+    act: async (file, overwrite) => saved(await request('world_save', { file, overwrite })),
+  }),
+};
 
 class FileDialog {
-  action = $state<FileAction | null>(null);
+  /** What the dialog is open for; null while it is closed. */
   task = $state.raw<FileTask | null>(null);
+  /** Null for the task of a panel. */
+  action = $state<FileAction | null>(null);
   /** Worlds that come with Forage. */
   shipped = $state.raw<string[]>([]);
-  /** The process that is exported. */
-  process = $state<string | null>(null);
   listing = $state.raw<FilesResult | null>(null);
   /** The listing that is on its way: a name is one of its folder, not of the one that was shown before. */
   private listed: Promise<void> = Promise.resolve();
@@ -33,27 +79,21 @@ class FileDialog {
   taken = $state('');
 
   open(action: FileAction, process: string | null = null): void {
-    this.action = action;
-    this.process = process;
-    this.error = '';
-    this.taken = '';
     this.world = model.world?.file ?? '';
-    const item = model.find(process);
-    this.name = action === 'export' && item?.kind === 'process' ? `${item.process.name}.iqrProcess` : action === 'save as' ? baseName(editing.backupOf ?? editing.file) || `${model.system?.name || 'system'}.iqr` : '';
-    const world = worldFile.document?.file ?? '';
-    if (action === 'save the world') this.name = baseName(world);
-    // A world finds its models from its own folder. A system that comes with Forage is saved where the studio was started.
-    void this.list(action === 'save the world' || action === 'world' ? folderOf(world || this.world) : action === 'save as' && editing.shipped ? '.' : '');
+    this.choose(tasks[action](process ?? ''), action);
     if (action === 'open' || action === 'new' || action === 'world') void request('shipped').then((r) => (this.shipped = r.worlds), () => {});
     if (action === 'open') void request('recent').then((r) => (this.recent = r.files), () => {});
   }
-  /** Asks for a file, and does something with it. Before a file is replaced, the dialog asks again. */
-  choose(task: FileTask): void {
+  /** Opens the dialog for a file of a panel. */
+  choose(task: FileTask, action: FileAction | null = null): void {
     this.task = task;
-    this.action = 'other';
+    this.action = action;
     this.error = this.taken = '';
     this.name = task.name ?? '';
-    void this.list(editing.shipped ? '.' : '');
+    void this.list(task.folder ?? (!action && editing.shipped ? '.' : ''));
+  }
+  close(): void {
+    this.task = this.action = null;
   }
   list(folder: string): Promise<void> {
     return (this.listed = this.read(folder));
@@ -66,6 +106,10 @@ class FileDialog {
       this.error = (e as Error).message;
     }
   }
+  /** Whether the dialog lists a file. */
+  lists(file: string): boolean {
+    return this.task?.files?.test(file) ?? file.endsWith(this.task?.ending ?? '');
+  }
   /** Takes a file of the list: for a system that is opened or begun, a world is the one of the other field. */
   take(file: string): void {
     if (file.endsWith('.world') && (this.action === 'open' || this.action === 'new')) this.world = this.path(file);
@@ -74,36 +118,22 @@ class FileDialog {
   takes(file: string): boolean {
     return this.name === file || (file.endsWith('.world') && this.action !== 'world' && this.world === this.path(file));
   }
-  path(name: string): string {
+  private path(name: string): string {
     return name.startsWith('/') || !this.listing ? name : `${this.listing.folder.replace(/\/$/, '')}/${name}`;
   }
   /** The file that the dialog is about to use. */
   file(): string {
     const file = this.path(this.name.trim());
-    return this.action === 'other' && !file.endsWith(this.task!.ending) ? file + this.task!.ending : file;
+    return this.lists(file) ? file : file + (this.task?.ending ?? '');
   }
   /** Does what the dialog is for. Stays open, with the reason, when that is refused. */
   async act(overwrite = false): Promise<void> {
     await this.listed;
-    const file = this.file(), action = this.action;
-    if (!action) return; // it was closed meanwhile
-    const steps: Record<FileAction, () => Promise<unknown>> = {
-      open: () => request('open', { system: file, world: this.world.trim() }),
-      'save as': () => request('save', { file: /\.iqr$|\.xml$/.test(file) ? file : `${file}.iqr`, overwrite }),
-      import: () => request('import', { file, link: false }),
-      link: () => request('import', { file, link: true }),
-      export: () => request('export', { process: this.process ?? '', file, overwrite }),
-      world: () => request('world_open', { world: file }),
-      other: () => this.task!.act(file, overwrite),
-      'save the world': () => request('world_save', { file: /\.world$/.test(file) ? file : `${file}.world`, overwrite }),
-      new: () => request('new', { name: this.name.trim() || 'New system', world: this.world.trim() }),
-    };
+    const file = this.file(), task = this.task;
+    if (!task) return; // it was closed meanwhile
     try {
-      if (action === 'save as') await sendAll();
-      const done = (await steps[action]()) as { file?: string } | undefined;
-      this.action = null;
-      if (action === 'world') actions.notify('info', `The run restarts in ${baseName(file)}.`);
-      if (action.startsWith('save')) actions.notify('info', `Saved as ${baseName(done?.file ?? file)}.`);
+      await task.act(file, overwrite);
+      this.close();
     } catch (e) {
       this.error = (e as Error).message;
       if (e instanceof CommandError && e.reason === 'file_exists') this.taken = file;

@@ -283,7 +283,7 @@ export default async function ({ folder, start, open, faults, step }) {
   await picture(page, 'replace');
   assert.equal(readFileSync(file, 'utf8'), first);
   await press('Tab', 'Tab', 'Enter');
-  await until(page, 'the menu is closed', () => !document.querySelector('.layouts .menu'));
+  await until(page, 'the menu is closed', () => !document.querySelector('.popover .menu'));
   assert.match(readFileSync(file, 'utf8'), /floatingGroups/);
   await find(page, 'panel: dock');
   await page.getByRole('button', { name: 'Layouts of the panels' }).press('Enter');
