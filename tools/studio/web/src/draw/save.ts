@@ -10,32 +10,31 @@ export function download(name: string, type: string, content: BlobPart): void {
   setTimeout(() => URL.revokeObjectURL(url), 1000);
 }
 
-export function savePng(name: string, canvas: HTMLCanvasElement, scale = 1): void {
+const savePngOf = (name: string, canvas: HTMLCanvasElement) => canvas.toBlob((blob) => blob && download(`${name}.png`, 'image/png', blob));
+
+/** Saves a canvas on its own. */
+export function savePng(name: string, canvas: HTMLCanvasElement): void {
   const out = document.createElement('canvas');
-  out.width = canvas.width * scale;
-  out.height = canvas.height * scale;
-  const context = out.getContext('2d')!;
-  context.imageSmoothingEnabled = false;
-  context.drawImage(canvas, 0, 0, out.width, out.height);
-  keep(name, out);
+  out.width = canvas.width;
+  out.height = canvas.height;
+  out.getContext('2d')!.drawImage(canvas, 0, 0);
+  savePngOf(name, out);
 }
 
-const keep = (name: string, canvas: HTMLCanvasElement) => canvas.toBlob((blob) => blob && download(`${name}.png`, 'image/png', blob));
+/** The colour of a cell by its number; 'none' where there is nothing. */
+type Colour = (i: number) => string;
+/** A heat map in a file; several maps have a caption each. */
+interface HeatMap { columns: number; rows: number; colour: Colour; caption?: string }
 
-const edge = 480, caption = 22, gap = 16, narrowest = 80;
+const edge = 480, captionHeight = 22, gap = 16, narrowest = 80;
 
-/** How many pixels a cell takes when a heat map is saved. */
-export const cellSize = (columns: number, rows: number) => Math.max(1, Math.round(edge / Math.max(columns, rows)));
-
-interface Shape { columns: number; rows: number }
-
-/** The places of heat maps side by side, or one below the other, each with a line of text below it. Their cells are equally large. */
-function places(shapes: Shape[], row: boolean) {
-  const s = Math.min(...shapes.map((p) => cellSize(p.columns, p.rows)));
+/** The places of heat maps side by side, or one below the other. Their cells are equally large. */
+function places(maps: HeatMap[], row: boolean) {
+  const s = Math.min(...maps.map((m) => Math.max(1, Math.round(edge / Math.max(m.columns, m.rows)))));
   let x = 0, y = 0, width = 0, height = 0;
-  const at = shapes.map(({ columns, rows }) => {
-    const w = Math.max(s * columns, narrowest), h = s * rows + caption;
-    const place = { x: x + (w - s * columns) / 2, y, middle: x + w / 2 };
+  const at = maps.map(({ columns, rows, caption }) => {
+    const w = Math.max(s * columns, caption ? narrowest : 0), h = s * rows + (caption ? captionHeight : 0);
+    const place = { x: x + (w - s * columns) / 2, y, middle: x + w / 2, below: y + s * rows + 16 };
     width = Math.max(width, x + w);
     height = Math.max(height, y + h);
     if (row) x += w + gap;
@@ -45,29 +44,29 @@ function places(shapes: Shape[], row: boolean) {
   return { s, at, width, height };
 }
 
-/** Saves heat maps with their captions. */
-export function savePngs(name: string, pictures: { canvas: HTMLCanvasElement; caption: string }[], row: boolean): void {
-  const { s, at, width, height } = places(pictures.map(({ canvas }) => ({ columns: canvas.width, rows: canvas.height })), row);
+/** Saves heat maps with their captions, as PNG or SVG. Their canvases have a pixel per cell. */
+export function saveHeats(name: string, format: string, maps: (HeatMap & { canvas: HTMLCanvasElement })[], row = true): void {
+  if (format === 'svg') return download(`${name}.svg`, 'image/svg+xml', heatsSvg(maps, row));
+  const { s, at, width, height } = places(maps, row);
   const out = document.createElement('canvas');
   out.width = width;
   out.height = height;
   const context = out.getContext('2d')!;
   context.imageSmoothingEnabled = false;
-  context.fillStyle = 'white';
-  context.fillRect(0, 0, width, height);
+  if (maps[0]!.caption) {
+    context.fillStyle = 'white';
+    context.fillRect(0, 0, width, height);
+  }
   context.fillStyle = 'black';
   context.font = '14px sans-serif';
   context.textAlign = 'center';
-  pictures.forEach(({ canvas, caption }, i) => {
-    const { x, y, middle } = at[i]!;
+  maps.forEach(({ canvas, caption = '' }, i) => {
+    const { x, y, middle, below } = at[i]!;
     context.drawImage(canvas, x, y, s * canvas.width, s * canvas.height);
-    context.fillText(caption, middle, y + s * canvas.height + 16);
+    context.fillText(caption, middle, below);
   });
-  keep(name, out);
+  savePngOf(name, out);
 }
-
-/** The colour of a cell by its number; 'none' where there is nothing. */
-type Colour = (i: number) => string;
 
 /** The colours of values on a scale. */
 export const coloursOf = (values: ArrayLike<number>, low: number, high: number, map: MapName): Colour => (i) => {
@@ -75,28 +74,22 @@ export const coloursOf = (values: ArrayLike<number>, low: number, high: number, 
   return Number.isNaN(v) ? 'none' : cssColour(map, (v - low) / (high - low || 1));
 };
 
-const squares = (columns: number, rows: number, colour: Colour): string =>
-  Array.from({ length: columns * rows }, (_, i) => [i, colour(i)] as const)
-    .filter(([, fill]) => fill !== 'none')
-    .map(([i, fill]) => `<rect x="${i % columns}" y="${Math.floor(i / columns)}" width="1" height="1" fill="${fill}"/>`)
-    .join('');
-
-/** A heat map as squares. */
-export const heatSvg = (columns: number, rows: number, colour: Colour): string =>
-  `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${columns} ${rows}" shape-rendering="crispEdges">${squares(columns, rows, colour)}</svg>\n`;
-
-/** A text as XML has it, also within quotes. */
-export const escape = (s: string) => s.replace(/[&<>"]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c]!);
-
-/** Heat maps with their captions. */
-export function heatsSvg(pictures: (Shape & { colour: Colour; caption: string })[], row: boolean): string {
-  const { s, at, width, height } = places(pictures, row);
-  const parts = pictures.map((p, i) => {
-    const { x, y, middle } = at[i]!;
-    return `<g transform="translate(${x} ${y}) scale(${s})" shape-rendering="crispEdges">${squares(p.columns, p.rows, p.colour)}</g><text x="${middle}" y="${y + s * p.rows + 16}" text-anchor="middle">${escape(p.caption)}</text>`;
+/** Heat maps with their captions as squares. */
+export function heatsSvg(maps: HeatMap[], row: boolean): string {
+  const { s, at, width, height } = places(maps, row);
+  const parts = maps.map(({ columns, rows, colour, caption }, k) => {
+    const { x, y, middle, below } = at[k]!;
+    const squares = Array.from({ length: columns * rows }, (_, i) => [i, colour(i)] as const)
+      .filter(([, fill]) => fill !== 'none')
+      .map(([i, fill]) => `<rect x="${i % columns}" y="${Math.floor(i / columns)}" width="1" height="1" fill="${fill}"/>`);
+    const text = caption ? `<text x="${middle}" y="${below}" text-anchor="middle">${escape(caption)}</text>` : '';
+    return `<g transform="translate(${x} ${y}) scale(${s})" shape-rendering="crispEdges">${squares.join('')}</g>${text}`;
   });
   return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" font-family="sans-serif" font-size="14">${parts.join('')}</svg>\n`;
 }
+
+/** A text as XML has it, also within quotes. */
+export const escape = (s: string) => s.replace(/[&<>"]/g, (c) => ({ '&': '&amp;', '<': '&lt;', '>': '&gt;', '"': '&quot;' })[c]!);
 
 /** The name of a file for something that may have any name. */
 export const fileName = (text: string): string => text.replace(/[^\w.-]+/g, '_');
@@ -128,3 +121,5 @@ export function csv(header: string[], rows: Iterable<ArrayLike<number | string>>
   for (const row of rows) out += Array.from(row, quote).join(',') + '\n';
   return out;
 }
+
+export const saveCsv = (name: string, header: string[], rows: Iterable<ArrayLike<number | string>>): void => download(`${name}.csv`, 'text/csv', csv(header, rows));

@@ -4,7 +4,6 @@ export interface CanvasApi {
   print(): void;
   fit(): void;
   turn(split: 'columns' | 'rows' | null): void;
-  split(): 'columns' | 'rows' | null;
 }
 class Canvas {
   api = $state.raw<CanvasApi | null>(null);

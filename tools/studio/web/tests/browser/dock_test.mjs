@@ -279,7 +279,7 @@ export default async function ({ folder, start, open, faults, step }) {
   await page.getByRole('button', { name: 'Layouts of the panels' }).press('Enter');
   await page.getByLabel('Name of the layout').focus();
   await press('Enter');
-  await page.getByText('There is a layout mine already.').waitFor();
+  await page.getByText('A layout mine exists already.').waitFor();
   await picture(page, 'replace');
   assert.equal(readFileSync(file, 'utf8'), first);
   await press('Tab', 'Tab', 'Enter');
