@@ -32,7 +32,7 @@ export type Result<C extends CommandName> = Commands[C]['result'];
 /** The arguments of a command. They may be left out when none is required. */
 export type Arguments<C extends CommandName> = {} extends Commands[C]['arguments'] ? [given?: Commands[C]['arguments']] : [given: Commands[C]['arguments']];
 
-interface Waiting { resolve(result: unknown): void; reject(error: Error): void }
+type Waiting = { resolve(result: unknown): void; reject(error: Error): void };
 
 export class Connection {
   private socket: WebSocket | null = null;

@@ -5,6 +5,22 @@ const carries = (e: DragEvent, type: string): boolean => e.dataTransfer?.types.i
 export const carriesItem = (e: DragEvent): boolean => carries(e, itemType);
 export const carriesItemOrSources = (e: DragEvent): boolean => carriesItem(e) || carries(e, sourcesType);
 
+/** Attributes of an element on which something is dropped that `carries` accepts. `take` gets the drop, `mark` whether something is held over it. */
+export function dropTarget(carries: (e: DragEvent) => boolean, take: (e: DragEvent) => unknown, mark: (over: boolean) => void = () => {}) {
+  function accept(e: DragEvent, act: () => unknown) {
+    if (!carries(e)) return;
+    e.preventDefault();
+    e.stopPropagation();
+    act();
+  }
+  return {
+    'data-drops': '',
+    ondragover: (e: DragEvent) => accept(e, () => mark(true)),
+    ondragleave: () => mark(false),
+    ondrop: (e: DragEvent) => (mark(false), accept(e, () => take(e))),
+  };
+}
+
 export const dragItem = (e: DragEvent, id: string) => e.dataTransfer?.setData(itemType, id);
 export const dragSources = (e: DragEvent, sources: string[]) => e.dataTransfer?.setData(sourcesType, JSON.stringify(sources));
 

@@ -6,7 +6,7 @@ import { actions } from './stores/actions.svelte';
 import { problemText, type LayoutContent } from './protocol/messages';
 import { isPlot, type PanelState } from './panels/registry';
 
-interface Preset { name: string; hint: string; spaces: string[]; times: string[]; raster?: string[]; weights?: boolean; diagram?: boolean }
+type Preset = { name: string; hint: string; spaces: string[]; times: string[]; raster?: string[]; weights?: boolean; diagram?: boolean };
 
 export const presets: Preset[] = [
   { name: 'Overview', hint: 'arena, diagram, sensors and motor', spaces: ['/Light', '/Motor'], times: [] },

@@ -4,7 +4,7 @@ import { robotColour, type LiveWorld, type Pose, type Thing } from './live';
 import type { Trail } from './trail';
 
 /** Between metres and pixels of the canvas. */
-interface View { s: number; px(x: number): number; py(y: number): number; wx(p: number): number; wy(p: number): number }
+type View = { s: number; px(x: number): number; py(y: number): number; wx(p: number): number; wy(p: number): number };
 
 /** Shows a rectangle of the world, or a part of it around a centre. */
 export function viewOf(box: number[], width: number, height: number, zoom: number, centre: { x: number; y: number }): View {

@@ -1,29 +1,15 @@
 // What keys do in the arena.
+import { arrowStep } from '../arrow_keys';
 import type { Pose, Thing } from './live';
 
-interface Step { x: number; y: number; turn: number }
+type Step = { x: number; y: number; turn: number };
 
 /** How far a key moves a thing: m, and rad to the left. Null for other keys. */
 export function stepOf(key: string, large: boolean): Step | null {
-  const far = large ? 0.5 : 0.05, turn = large ? Math.PI / 4 : Math.PI / 36;
-  switch (key) {
-    case 'ArrowLeft':
-      return { x: -far, y: 0, turn: 0 };
-    case 'ArrowRight':
-      return { x: far, y: 0, turn: 0 };
-    case 'ArrowUp':
-      return { x: 0, y: far, turn: 0 };
-    case 'ArrowDown':
-      return { x: 0, y: -far, turn: 0 };
-    case '[':
-    case '{':
-      return { x: 0, y: 0, turn };
-    case ']':
-    case '}':
-      return { x: 0, y: 0, turn: -turn };
-    default:
-      return null;
-  }
+  const far = large ? 0.5 : 0.05, turn = large ? Math.PI / 4 : Math.PI / 36, arrow = arrowStep(key);
+  if (arrow) return { x: far * arrow[0], y: 0 - far * arrow[1], turn: 0 };
+  if (key === '[' || key === '{') return { x: 0, y: 0, turn };
+  return key === ']' || key === '}' ? { x: 0, y: 0, turn: -turn } : null;
 }
 
 /** To the millimetre: nothing in an arena needs more digits. */

@@ -5,11 +5,11 @@ import { Trail } from './trail';
 
 type Source = Pick<Streams, 'subscribe'>;
 
-export interface Pose { x: number; y: number; yaw: number; resetting: boolean }
+export type Pose = { x: number; y: number; yaw: number; resetting: boolean };
 /** A robot, an object or a light that can be moved. A light is moved in the world's file, and has its place there; its index is below 0. */
-export interface Thing { index: number; kind: 'robot' | 'object' | 'light'; name: string; radius: number; place?: Pose }
+export type Thing = { index: number; kind: 'robot' | 'object' | 'light'; name: string; radius: number; place?: Pose };
 /** A light as the world's file has it. */
-interface Light { id: string; x: number; y: number; yaw: number }
+type Light = { id: string; x: number; y: number; yaw: number };
 
 /** Colours of the robots and of their trails. */
 const robotColours = ['#4aa3ff', '#ffb14a', '#7ddc8a', '#e58be0'];

@@ -24,7 +24,7 @@ export function savePng(name: string, canvas: HTMLCanvasElement): void {
 /** The colour of a cell by its number; 'none' where there is nothing. */
 type Colour = (i: number) => string;
 /** A heat map in a file; several maps have a caption each. */
-interface HeatMap { columns: number; rows: number; colour: Colour; caption?: string }
+type HeatMap = { columns: number; rows: number; colour: Colour; caption?: string };
 
 const edge = 480, captionHeight = 22, gap = 16, narrowest = 80;
 

@@ -1,6 +1,6 @@
 // The colour scale of a plot: follows the values, only grows, or is fixed.
 export type ScaleMode = 'auto' | 'expand' | 'manual';
-export interface Scale { mode: ScaleMode; low: number; high: number }
+export type Scale = { mode: ScaleMode; low: number; high: number };
 
 /** Adapts a scale to new values. Returns the scale itself when nothing changes. */
 export function adapt(scale: Scale, low: number, high: number): Scale {

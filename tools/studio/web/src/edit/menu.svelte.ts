@@ -1,8 +1,10 @@
 // The menu that is open at a place of the window, or none.
 export interface Entry {
   label: string;
+  /** How the finder names it; without it, by the label. */
+  name?: string;
   keys?: string;
-  /** Why it cannot be chosen now. */
+  /** Whether it cannot be chosen now. */
   disabled?: boolean;
   act?(): unknown;
   /** Another menu, which opens in its place. */

@@ -6,7 +6,7 @@ import { model } from '../stores/model.svelte';
 import { selection } from '../stores/selection.svelte';
 import { copy, cut, withConnections } from './clipboard';
 import { fileDialog } from './file.svelte';
-import type { Entries } from './menu.svelte';
+import { menu, type Entries } from './menu.svelte';
 import { edit } from './operations';
 import { tools } from './tool.svelte';
 
@@ -28,7 +28,7 @@ export function rename(id: string): void {
 }
 
 /** What can be done with one item, or with all selected ones if it is among them. */
-export function itemMenu(id: string): Entries {
+function itemMenu(id: string): Entries {
   const ids = selection.has(id) ? selection.ids : [id];
   const item = model.find(id);
   if (!item) return [];
@@ -69,6 +69,12 @@ export function itemMenu(id: string): Entries {
     for (const s of item.connection.states) first.push({ label: s.label, act: () => dock.plot({ kind: 'weights', item: model.nameFor(item.connection), state: s.name }) });
   }
   return [...first, ...editEntries];
+}
+
+/** Opens the menu of an item, which becomes the selected one unless it is among those. */
+export function showItemMenu(e: MouseEvent, id: string): void {
+  if (!selection.has(id)) selection.select(id);
+  menu.show(e, itemMenu(id));
 }
 
 /** The menu of a line: of its connection, or a choice of the several that it stands for. */

@@ -1,7 +1,7 @@
 // Places and names of new or moved boxes.
 
 export type Edge = 'left' | 'right' | 'top' | 'bottom' | 'column' | 'row';
-export interface Placed { id: string; x: number; y: number; width: number; height: number }
+export type Placed = { id: string; x: number; y: number; width: number; height: number };
 
 /** New places of boxes, so that an edge or the middle of all is on one line. */
 export function aligned(boxes: Placed[], side: Edge): Placed[] {

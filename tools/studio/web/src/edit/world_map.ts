@@ -1,7 +1,7 @@
 // The map of a world on the screen: x to the right, y upwards, metres.
 import type { WorldItem, WorldPart } from '../protocol/messages';
 
-export interface View { x: number; y: number; width: number; height: number }
+export type View = { x: number; y: number; width: number; height: number };
 
 /** How far an item reaches from its place. */
 export const reach = (i: WorldItem): number => Math.max(0.15, ...i.parts.map((p) => Math.hypot(p.x, p.y) + Math.hypot(...p.size) / (p.size.length === 1 ? 1 : 2)));

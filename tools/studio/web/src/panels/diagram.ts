@@ -37,7 +37,7 @@ export interface PageLine {
 }
 type VertexList = Exclude<keyof ConnectionLine, 'source_anchor' | 'target_anchor'>;
 
-export interface Page { boxes: PageBox[]; lines: PageLine[] }
+export type Page = { boxes: PageBox[]; lines: PageLine[] };
 
 const toBox = (icon: Icon): Box => ({ x: icon.x * scale, y: icon.y * scale, width: icon.width * scale, height: icon.height * scale });
 

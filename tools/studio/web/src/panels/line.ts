@@ -1,6 +1,6 @@
 // The line of a connection as its file draws it: from a point at the border of a box, over vertices, to a point at another one.
-export interface Point { x: number; y: number }
-export interface Box extends Point { width: number; height: number }
+export type Point = { x: number; y: number };
+export type Box = Point & { width: number; height: number };
 
 /** One of 16 points around a box, four on each side: above, right, below, left; numbered to the right and downwards. */
 export function anchor(box: Box, number: number): Point {

@@ -16,18 +16,21 @@ import type { StageApi } from './Stage.svelte';
 
 /** The pane as it is now; `process` is null on the page of the system. */
 interface Pane {
-  readonly uid: string;
-  readonly process: Process | null;
-  readonly boxes: Map<string, PageBox>;
-  readonly stage: StageApi | null;
-  readonly canvas: HTMLElement | undefined;
+  uid: string;
+  process: Process | null;
+  boxes: Map<string, PageBox>;
+  stage: StageApi | null;
+  canvas: HTMLElement | undefined;
 }
 
 export class PaneEdits {
   /** When a tool was used last: the second click of a double click does nothing more. */
   private used = 0;
 
-  constructor(private readonly pane: Pane) {}
+  constructor(private readonly now: () => Pane) {}
+  private get pane(): Pane {
+    return this.now();
+  }
 
   /** Adds a process or a group, and lets its name be written. */
   async add(at?: Point): Promise<void> {

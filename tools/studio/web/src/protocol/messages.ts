@@ -3,8 +3,8 @@
 
 export const protocolVersion = 1;
 
-export interface Icon { x: number; y: number; width: number; height: number }
-export interface State { name: string; label: string; output?: boolean }
+export type Icon = { x: number; y: number; width: number; height: number };
+export type State = { name: string; label: string; output?: boolean };
 
 export interface Group {
   id: string;
@@ -24,11 +24,11 @@ export interface Group {
 }
 
 /** A text on a page of the diagram, apart from any item. */
-export interface CanvasComment { id: string; text: string; color: string; icon: Icon }
+export type CanvasComment = { id: string; text: string; color: string; icon: Icon };
 /** Where the file puts the phantom of a group of another process on the page of a process. */
-export interface PhantomPlace { group: string; x: number; y: number }
+export type PhantomPlace = { group: string; x: number; y: number };
 
-export interface ModulePort { name: string; group: string }
+export type ModulePort = { name: string; group: string };
 
 export interface Process {
   id: string;
@@ -83,7 +83,7 @@ export interface SystemMessage {
   comments: CanvasComment[];
 }
 
-export interface Solid { kind: string; x: number; y: number; z: number; yaw: number; size: [number, number, number]; color: string }
+export type Solid = { kind: string; x: number; y: number; z: number; yaw: number; size: [number, number, number]; color: string };
 export interface RobotInfo {
   name: string;
   radius: number;
@@ -94,7 +94,7 @@ export interface RobotInfo {
 }
 
 /** The system has no world. */
-export interface NoWorldMessage { type: 'world'; file: null }
+export type NoWorldMessage = { type: 'world'; file: null };
 
 export interface WorldMessage {
   type: 'world';
@@ -114,7 +114,7 @@ export interface WorldMessage {
 export type SpeedMode = 'real' | 'times' | 'cycles' | 'free';
 
 /** `smallest_distance` is null before one was measured. */
-export interface TrialProgress { number: number; seconds: number; reached_target: boolean; smallest_distance: number | null }
+export type TrialProgress = { number: number; seconds: number; reached_target: boolean; smallest_distance: number | null };
 
 export interface StatusMessage {
   type: 'status';
@@ -153,10 +153,10 @@ export interface StatusMessage {
 }
 
 /** `layout` is that of --plot-config, `panels` the arrangement that a page had last. */
-export interface HelloMessage { type: 'hello'; protocol: number; version: string; capabilities: string[]; layout?: LayoutContent | null; panels?: LayoutContent | null }
+export type HelloMessage = { type: 'hello'; protocol: number; version: string; capabilities: string[]; layout?: LayoutContent | null; panels?: LayoutContent | null };
 
 /** A layout file: the panels' arrangement, or the plots of a file of the original, with what could not be read of it. */
-export interface LayoutContent { dock?: unknown; plots?: { kind: string; item?: string; sources?: string[]; [setting: string]: unknown }[]; problems?: Problem[] }
+export type LayoutContent = { dock?: unknown; plots?: { kind: string; item?: string; sources?: string[]; [setting: string]: unknown }[]; problems?: Problem[] };
 
 export interface ActionMessage {
   type: 'action';
@@ -172,9 +172,9 @@ export interface ActionMessage {
   ended: ('past' | 'comparison' | 'recording')[];
 }
 
-export interface Problem { severity?: string; file?: string; line?: number; column?: number; message: string; hint?: string }
+export type Problem = { severity?: string; file?: string; line?: number; column?: number; message: string; hint?: string };
 
-export interface ReplyMessage { type: 'reply'; id: number; ok: boolean; conflict?: boolean; reason?: string; result?: unknown; problems?: Problem[] }
+export type ReplyMessage = { type: 'reply'; id: number; ok: boolean; conflict?: boolean; reason?: string; result?: unknown; problems?: Problem[] };
 
 export type ServerMessage = HelloMessage | SystemMessage | WorldMessage | NoWorldMessage | StatusMessage | ActionMessage | DocumentMessage | WorldDocument | ReplyMessage;
 
@@ -199,12 +199,12 @@ export interface ParameterInfo {
   assignment: string;
 }
 
-export interface ItemParameters { item: string; id: string; kind: string; type: string; parameters: ParameterInfo[] }
+export type ItemParameters = { item: string; id: string; kind: string; type: string; parameters: ParameterInfo[] };
 
 // ---- editing ----
 
 /** `port`, `parameter`: the field of the item that it is about; `unset`: the port is required, and leads nowhere. */
-export interface DocumentProblem extends Problem { item?: string | null; port?: string; parameter?: string; unset?: boolean }
+export type DocumentProblem = Problem & { item?: string | null; port?: string; parameter?: string; unset?: boolean };
 
 /** The document as it is now. The server sends it after each change. */
 export interface DocumentMessage {
@@ -233,22 +233,22 @@ export type Place = [number, number];
 
 /** Cells of a group; columns and rows from 1, as in the file. */
 export type Region = { form: 'all' } | { form: 'region'; x: number; y: number; width: number; height: number } | { form: 'list'; points: Place[] };
-export interface Tuple { source: Place[]; target: Place[] }
+export type Tuple = { source: Place[]; target: Place[] };
 export type Pattern =
   | { form: 'foreach'; source: Region; target: Region }
   | { form: 'mapped'; mapping: 'center' | 'all'; source: Region; target: Region }
   | { form: 'tuples'; tuples: Tuple[] };
 
 /** A type with values of its parameters: an arborization or a function of distance. */
-export interface Typed { type: string; values: Record<string, ParameterValue> }
+export type Typed = { type: string; values: Record<string, ParameterValue> };
 
-export interface Topology { form: 'rect' | 'sparse'; width?: number; height?: number; wrap_x?: boolean; wrap_y?: boolean; points?: Place[] }
-export interface Port { name: string; label?: string; doc?: string; optional: boolean; group: string }
+export type Topology = { form: 'rect' | 'sparse'; width?: number; height?: number; wrap_x?: boolean; wrap_y?: boolean; points?: Place[] };
+export type Port = { name: string; label?: string; doc?: string; optional: boolean; group: string };
 
 /** `linked`: it is in the file of a linked process. `other_system`: it runs beside the system that is edited. */
-export interface Common { id: string; name: string; color?: string; note?: string; icon?: Icon | null; linked?: boolean; other_system?: boolean; text: string; parameters: ParameterInfo[] }
-export interface Feedback { name: string; label: string; required: boolean; state: string }
-export interface GroupItem extends Common { kind: 'group'; process: string; path: string; neuron: string; topology: Topology; cells: number }
+export type Common = { id: string; name: string; color?: string; note?: string; icon?: Icon | null; linked?: boolean; other_system?: boolean; text: string; parameters: ParameterInfo[] };
+export type Feedback = { name: string; label: string; required: boolean; state: string };
+export type GroupItem = Common & { kind: 'group'; process: string; path: string; neuron: string; topology: Topology; cells: number };
 export interface ConnectionItem extends Common {
   kind: 'connection';
   source: string;
@@ -264,9 +264,9 @@ export interface ConnectionItem extends Common {
   states?: string[];
   synapses: number;
 }
-export interface ProcessItem extends Common { kind: 'process'; path: string; enabled: boolean; module: string | null; inputs: Port[]; outputs: Port[] }
-export interface SystemItem extends Common { kind: 'system'; author: string; date: string; port: string; sync_plots: boolean; cycles_per_second: number }
-export interface CommentItem extends Common { kind: 'comment'; content: string; width: number; height: number }
+export type ProcessItem = Common & { kind: 'process'; path: string; enabled: boolean; module: string | null; inputs: Port[]; outputs: Port[] };
+export type SystemItem = Common & { kind: 'system'; author: string; date: string; port: string; sync_plots: boolean; cycles_per_second: number };
+export type CommentItem = Common & { kind: 'comment'; content: string; width: number; height: number };
 export type EditItem = GroupItem | ConnectionItem | ProcessItem | SystemItem | CommentItem;
 
 export interface FormParameter {
@@ -286,29 +286,29 @@ export interface FormParameter {
   assignment?: string;
 }
 /** A cross reference of a type. */
-export interface TypePort { name: string; label?: string; doc?: string; optional?: boolean; required?: boolean }
-export interface TypeInfo { type: string; label?: string; doc?: string; parameters: FormParameter[]; states?: State[]; reads?: ConnectionKind[]; inputs?: TypePort[]; outputs?: TypePort[]; any_ports?: boolean; feedback?: TypePort[] }
-export interface TypesResult { neurons: TypeInfo[]; synapses: TypeInfo[]; modules: TypeInfo[]; arborizations: TypeInfo[]; functions: TypeInfo[] }
+export type TypePort = { name: string; label?: string; doc?: string; optional?: boolean; required?: boolean };
+export type TypeInfo = { type: string; label?: string; doc?: string; parameters: FormParameter[]; states?: State[]; reads?: ConnectionKind[]; inputs?: TypePort[]; outputs?: TypePort[]; any_ports?: boolean; feedback?: TypePort[] };
+export type TypesResult = { neurons: TypeInfo[]; synapses: TypeInfo[]; modules: TypeInfo[]; arborizations: TypeInfo[]; functions: TypeInfo[] };
 
 /** `pairs` is the number of those that are listed. */
-export interface PreviewResult { synapses: number; pairs: number; source: number[]; target: number[] }
+export type PreviewResult = { synapses: number; pairs: number; source: number[]; target: number[] };
 /** A backup of a system; `time` is local. */
-export interface BackupFile { file: string; system: string; time: string }
+export type BackupFile = { file: string; system: string; time: string };
 /** `backups`: the latest of a system first. */
-export interface FilesResult { folder: string; parent?: string | null; folders: string[]; files: string[]; backups: BackupFile[] }
+export type FilesResult = { folder: string; parent?: string | null; folders: string[]; files: string[]; backups: BackupFile[] };
 
 /** One change of the document; `do` says which. */
 
 /** A shape of an item, in its frame: width and depth of a box, or a radius. */
-export interface WorldPart { x: number; y: number; yaw: number; size: number[]; color: string }
-export interface WorldProperty { name: string; label: string; kind: 'text' | 'number' | 'integer' | 'boolean' | 'choice' | 'color'; value: string | number | boolean; low: number | null; high: number | null; choices: string[] }
-export interface WorldItem { id: string; name: string; kind: string; placed: boolean; unpacks: boolean; x: number; y: number; z: number; yaw: number; parts: WorldPart[]; properties: WorldProperty[] }
-export interface WorldKind { kind: string; title: string }
+export type WorldPart = { x: number; y: number; yaw: number; size: number[]; color: string };
+export type WorldProperty = { name: string; label: string; kind: 'text' | 'number' | 'integer' | 'boolean' | 'choice' | 'color'; value: string | number | boolean; low: number | null; high: number | null; choices: string[] };
+export type WorldItem = { id: string; name: string; kind: string; placed: boolean; unpacks: boolean; x: number; y: number; z: number; yaw: number; parts: WorldPart[]; properties: WorldProperty[] };
+export type WorldKind = { kind: string; title: string };
 /** The items of the world's file. The server sends it after each change of it. */
-export interface WorldDocument { type: 'world_document'; file: string; dirty: boolean; items: WorldItem[] }
+export type WorldDocument = { type: 'world_document'; file: string; dirty: boolean; items: WorldItem[] };
 
 /** A cell's partners: rows of the same index are one synapse. */
-export interface SynapseTable { total: number; source: number[]; target: number[]; distance: number[]; delay: number[]; strength: number[] }
+export type SynapseTable = { total: number; source: number[]; target: number[]; distance: number[]; delay: number[]; strength: number[] };
 /** A finished trial; poses are x, y and yaw. */
 export interface Trial {
   number: number;
@@ -322,9 +322,9 @@ export interface Trial {
   smallest_distance: number | null;
 }
 /** The manipulation of a group; `times` is null for endlessly. */
-export interface Driven { group: string; mode: 'clamp' | 'add' | 'multiply'; patterns: number[][]; every: number; step: number; times: number | null; backwards: boolean }
+export type Driven = { group: string; mode: 'clamp' | 'add' | 'multiply'; patterns: number[][]; every: number; step: number; times: number | null; backwards: boolean };
 /** A parameter that a panel of the original shows. */
-export interface PanelRow extends ParameterInfo { item: string; id: string; owner: string }
+export type PanelRow = ParameterInfo & { item: string; id: string; owner: string };
 
 // ---- the format of system files ----
 
@@ -350,7 +350,7 @@ export interface ElementRule {
   text: boolean;
   attributes: AttributeRule[];
 }
-export interface Vocabulary { root: string; elements: ElementRule[] }
+export type Vocabulary = { root: string; elements: ElementRule[] };
 
 /** One problem as a line of text, as the command line prints it. */
 export function problemText(p: Problem): string {

@@ -1,7 +1,7 @@
 // What was done, with the shell command and the Python that do the same; and messages for the user.
 import type { ActionMessage } from '../protocol/messages';
 
-interface Notice { key: number; kind: 'error' | 'info'; text: string }
+type Notice = { key: number; kind: 'error' | 'info'; text: string };
 
 class Actions {
   log = $state.raw<(ActionMessage & { at: Date })[]>([]);

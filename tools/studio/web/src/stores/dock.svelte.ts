@@ -6,7 +6,7 @@ import { frame } from './frame.svelte';
 
 type Direction = 'left' | 'right' | 'above' | 'below' | 'within';
 /** Beside a panel, or without one at an edge of all. */
-interface Where { beside?: string; direction?: Direction; width?: number; height?: number; floating?: boolean; inactive?: boolean }
+type Where = { beside?: string; direction?: Direction; width?: number; height?: number; floating?: boolean; inactive?: boolean };
 
 class Dock {
   api: DockviewApi | null = null;

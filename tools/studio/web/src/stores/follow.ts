@@ -50,7 +50,7 @@ export function nameChanges(before: SystemMessage, after: SystemMessage): NameCh
 /** Kinds of panels that show one item of the system. */
 const ofItem = ['space', 'raster', 'manipulate', 'weights', 'wiring'];
 
-interface Row { item: string }
+type Row = { item: string };
 
 /** A panel after an edit: itself when nothing changes for it, the id of what it showed when that is gone. */
 export function followed(panel: PanelState, { names, gone, lost: ids }: NameChanges): PanelState | string {

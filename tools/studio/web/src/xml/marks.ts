@@ -1,7 +1,7 @@
 // Where the mistakes of a text are, as places of the editor.
 import type { Problem } from '../protocol/messages';
 
-interface Mark { from: number; to: number; severity: 'error' | 'warning'; message: string }
+type Mark = { from: number; to: number; severity: 'error' | 'warning'; message: string };
 
 /** The units of a JavaScript text before a column that counts bytes from 1. */
 export function unitsBefore(line: string, column: number): number {

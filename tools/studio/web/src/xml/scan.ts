@@ -1,6 +1,6 @@
 // The elements of an XML text, also of one that is being written and is not well-formed.
 
-interface Attribute { name: string; value: string }
+type Attribute = { name: string; value: string };
 export interface Tag {
   name: string;
   /** Where its '<' stands. */

@@ -1,10 +1,9 @@
 // What can be written at a place of a system file: elements, attributes and values, with their meanings.
 import type { AttributeRule, FormParameter, TypeInfo, TypesResult, Vocabulary } from '../protocol/messages';
 import { all, around, scan, valueOf, type Tag } from './scan';
-import { elementRule } from './vocabulary';
 
-interface KnownGroup { id: string; path: string; neuron: string; process: string }
-export interface Knowledge { vocabulary: Vocabulary; types: TypesResult; /** The groups of the system, which the text may name. */ groups: KnownGroup[] }
+type KnownGroup = { id: string; path: string; neuron: string; process: string };
+export type Knowledge = { vocabulary: Vocabulary; types: TypesResult; /** The groups of the system, which the text may name. */ groups: KnownGroup[] };
 
 export interface Suggestion {
   /** What is written, and shown. */
@@ -33,6 +32,8 @@ const wholeDoc = (label: string | undefined, doc: string | undefined) => [label,
 
 const parameterFacts = (p: FormParameter) => sentence(p.kind === 'text' ? '' : p.kind, p.unit && `in ${p.unit}`, range(p.low, p.high) && `usually ${range(p.low, p.high)}`, `default ${p.default === '' ? 'empty' : p.default}`);
 const attributeFacts = (a: AttributeRule) => sentence(a.required ? 'required' : a.default && `default ${a.default}`, a.kind === 'whole' ? 'whole number' : a.kind === 'number' && 'number', a.unit && `in ${a.unit}`, range(a.low, a.high));
+
+const elementRule = (v: Vocabulary, name: string | undefined) => v.elements.find((e) => e.name === name);
 
 /** The suggestions at the end of `before`, which is the text before the cursor; null when there are none. `after` is the text behind it. */
 export function suggest(before: string, after: string, known: Knowledge): Suggestions | null {

@@ -1,6 +1,6 @@
 // Writes frames as the server does.
-interface Header { sequence: number; epoch: number; cycle: number; seconds: number }
-interface BlockToWrite { stream: number; rows: number; columns: number; type: 0 | 1 | 2; flags: number; low: number; high: number; numbers: number[] }
+type Header = { sequence: number; epoch: number; cycle: number; seconds: number };
+type BlockToWrite = { stream: number; rows: number; columns: number; type: 0 | 1 | 2; flags: number; low: number; high: number; numbers: number[] };
 
 export function makeFrame(header: Header, blocks: BlockToWrite[]): ArrayBuffer {
   const size = [4, 8, 1];

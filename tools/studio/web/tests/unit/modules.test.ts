@@ -9,7 +9,7 @@ function resolve(from: string, path: string): string | undefined {
   return [file, `${file}.ts`].find((f) => files.has(f));
 }
 
-interface Import { file: string; names: string[] }
+type Import = { file: string; names: string[] };
 
 /** The modules that a module needs when it is loaded, or only for its types. */
 const imports = new Map(

@@ -1,0 +1,40 @@
+// The menu of the system, which the finder lists, too.
+import { dialogs } from '../parts/dialogs.svelte';
+import { dock } from '../stores/dock.svelte';
+import { model } from '../stores/model.svelte';
+import { selection } from '../stores/selection.svelte';
+import { openText } from '../xml/place.svelte';
+import { editing } from './document.svelte';
+import { backup, fileDialog, quit, save, saveWorld } from './file.svelte';
+import type { Entries } from './menu.svelte';
+import { properties } from './menus';
+import { worldFile } from './world.svelte';
+
+export function systemMenu(): Entries {
+  const process = model.processes.find((p) => p.id === selection.process);
+  return [
+    { label: 'New…', name: 'New system', keys: 'Alt N', act: () => fileDialog.open('new') },
+    { label: 'Open…', name: 'Open a system', keys: 'Ctrl O', act: () => fileDialog.open('open') },
+    { label: 'Save', keys: 'Ctrl S', disabled: !editing.dirty && editing.file !== '' && !editing.backupOf, act: save },
+    { label: 'Save as…', keys: 'Ctrl Shift S', act: () => fileDialog.open('save as') },
+    { label: 'Save a backup', keys: 'Ctrl B', disabled: !editing.file || editing.shipped, act: backup },
+    null,
+    { label: 'Import a process…', act: () => fileDialog.open('import') },
+    { label: 'Link a process…', act: () => fileDialog.open('link') },
+    { label: 'Export the process…', name: `Export the process ${process?.name}`, disabled: !process, act: () => fileDialog.open('export', process?.id) },
+    null,
+    { label: 'Changes since the last save', act: () => dock.plot({ kind: 'difference' }) },
+    { label: `Problems (${editing.problems.length})`, name: 'Show the problems', act: () => dock.plot({ kind: 'problems' }) },
+    { label: 'XML of the system', name: 'Edit the XML of the system', act: () => openText() },
+    { label: 'Properties of the system', act: () => properties('system') },
+    null,
+    { label: 'Another world…', act: () => fileDialog.open('world') },
+    { label: 'Edit the world', disabled: !model.world, act: () => dock.openBeside({ kind: 'world' }, 'arena') },
+    { label: 'Save the world', disabled: !worldFile.dirty, act: saveWorld },
+    { label: 'Save the world as…', disabled: !worldFile.document, act: () => fileDialog.open('save the world') },
+    null,
+    { label: 'Settings…', act: () => (dialogs.shown = 'settings') },
+    { label: 'About Forage', act: () => (dialogs.shown = 'about') },
+    { label: 'Quit…', act: quit },
+  ];
+}
