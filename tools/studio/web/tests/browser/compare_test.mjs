@@ -27,7 +27,7 @@ export default async function ({ start, open, step }) {
   await inspector.getByRole('button', { name: 'Time' }).click();
   await page.locator('.uplot canvas').first().waitFor();
   await inspector.getByRole('button', { name: 'Raster' }).click();
-  await page.getByRole('group', { name: 'Raster plot of Bug/Motor' }).getByText('It fills while the run goes.').waitFor();
+  await page.getByRole('group', { name: 'Raster plot of Bug/Motor' }).getByText('It fills while the system runs.').waitFor();
   await page.getByRole('button', { name: '4×' }).click();
   await page.getByRole('button', { name: 'Run', exact: true }).click();
   await cycle(150);

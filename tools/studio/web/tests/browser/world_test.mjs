@@ -22,7 +22,7 @@ export default async function ({ forage, folder, start, open, faults, step }) {
   };
 
   step('what the map says about itself does not cover it');
-  assert.ok((await map.boundingBox()).y + (await map.boundingBox()).height <= (await world.getByText('Drag to move').boundingBox()).y);
+  assert.ok((await map.boundingBox()).y + (await map.boundingBox()).height <= (await world.getByText('Drag or use the arrows').boundingBox()).y);
 
   step('a wall is added by a click, dragged, and given numbers');
   const items = await map.getByRole('button').count();
