@@ -25,7 +25,8 @@ inline bool same_bits(const std::vector<double>& a, const std::vector<double>& b
 }
 /// The violation of a type that gives other numbers when it starts again.
 inline std::string another_each_time(const std::string& instead) {
-    return "it computes other numbers when it starts anew with the same input: it uses rand(), the clock, or "
+    return "it computes other numbers when it starts again with the same input: it uses rand(), the clock, "
+           "or "
            "a "
            "variable that is shared by all objects; " +
            instead;

@@ -734,7 +734,7 @@ class Others(Cli):
                 done = subprocess.run([FORAGE, *shlex.split(command)[1:]], cwd=self.here, capture_output=True, text=True, timeout=600)
                 self.assertEqual(done.returncode, 1 if "--trial-timeout" in command else 0, done.stderr)
         # The film on top of the README is the one that its command makes.
-        pictures.check(self, self.here / "forage-out/robot_learns.gif", PROJECT / "docs/pictures/robot_learns.gif", "write it anew with ./tools/update-docs")
+        pictures.check(self, self.here / "forage-out/robot_learns.gif", PROJECT / "docs/pictures/robot_learns.gif", "rewrite it with ./tools/update-docs")
 
     def test_shipped_floors_are_what_their_script_draws(self):
         script = PROJECT / "systems" / "worlds" / "make_floors.py"

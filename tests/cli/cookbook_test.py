@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Runs the command of every recipe in docs/cookbook and checks what the recipe claims, and its picture.
 
-With FORAGE_REWRITE_EXPECTATIONS set, the pictures are written anew.
+With FORAGE_REWRITE_EXPECTATIONS set, the pictures are rewritten.
 
 usage: cookbook_test.py FORAGE PROJECT [TEST...]
 """
@@ -177,7 +177,7 @@ class Cookbook(unittest.TestCase):
                 finished = Run(here, command + [word for source in sources for word in ("--record", source)])
                 check(self, finished)
                 drawn, = [*finished.out.glob("time_*.svg")] or [*finished.out.glob("trajectory.png")]
-                pictures.check(self, drawn, PAGE.parent / "pictures" / picture, "write it anew with FORAGE_REWRITE_EXPECTATIONS=1", REWRITE)
+                pictures.check(self, drawn, PAGE.parent / "pictures" / picture, "rewrite it with FORAGE_REWRITE_EXPECTATIONS=1", REWRITE)
 
 
 class Beginnings(unittest.TestCase):

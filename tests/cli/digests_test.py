@@ -3,7 +3,7 @@ Forage was built with.
 
     digests_test.py FORAGE_PROGRAM PROJECT_DIRECTORY [TEST...]
 
-FORAGE_REWRITE_EXPECTATIONS=1 writes them anew.
+FORAGE_REWRITE_EXPECTATIONS=1 rewrites them.
 """
 
 import json

@@ -12,7 +12,7 @@ A comment stands before each paragraph, table or picture that a command makes:
 
 What follows a number in a cell is a remark, which stays. The results of experiments are kept in tests/data/experiments: tables are compared with
 these. Experiments run for one seed and one value of each sweep; with FORAGE_WHOLE set, wholly. With FORAGE_REWRITE_EXPECTATIONS set, they run
-wholly, and results, numbers and pictures are written anew.
+wholly, and results, numbers and pictures are rewritten.
 
 usage: docs_test.py FORAGE PROJECT PAGE[#SECTION]... [TEST...]
 """
@@ -39,7 +39,7 @@ ORIGINAL = SHARED / "original/DAC_files"
 REWRITE = "FORAGE_REWRITE_EXPECTATIONS" in os.environ
 WHOLE = REWRITE or "FORAGE_WHOLE" in os.environ
 RESULTS = PROJECT / "tests/data/experiments"
-REMEDY = "write it anew with ./tools/update-docs"
+REMEDY = "rewrite it with ./tools/update-docs"
 
 COMMANDS = re.compile(r"^```sh\n(.*?)^```", re.MULTILINE | re.DOTALL)
 MADE = re.compile(r"^<!-- made by: (?P<command>.*?)(?: > (?P<files>[^>]*))? -->\n(?P<block>.*?)(?=\n\n|\n?\Z)", re.MULTILINE | re.DOTALL)

@@ -362,7 +362,7 @@ class Interrupted(Experiment):
         after = self.made_at("out")
         self.assertEqual(len(after), 16)
         self.assertEqual({k: after[k] for k in before}, before)
-        self.edit("robot.xml", "value=\"0.5\"", "value=\"0.6\"")  # another experiment: all of it anew
+        self.edit("robot.xml", "value=\"0.5\"", "value=\"0.6\"")  # another experiment: all of it again
         self.forage("experiment", "robot.xml", "-o", "out")
         self.assertFalse([k for k, v in self.made_at("out").items() if v == after[k]])
 

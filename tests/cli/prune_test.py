@@ -140,11 +140,11 @@ class Pruning(Stopped):
             done = self.forage(*arguments, *how, "-r", "P/G")
             self.assertNotIn("becomes", done.stderr)
             self.assertEqual(self.pruned(done), 3)
-        told = "of 'P/H' becomes inf"
-        self.assertIn(told, self.forage(*arguments, "-r", "P/H").stderr)
-        self.assertIn(told, self.forage(*arguments, "-r", "P/G", "--hash").stderr)
-        self.assertIn(told, self.forage(*arguments, "-r", "P/H", "--on-nan", "warn").stderr)
-        self.assertIn(told, self.forage(*arguments, "-r", "P/H", "--on-nan", "stop", status=1).stderr)
+        reported = "of 'P/H' becomes inf"
+        self.assertIn(reported, self.forage(*arguments, "-r", "P/H").stderr)
+        self.assertIn(reported, self.forage(*arguments, "-r", "P/G", "--hash").stderr)
+        self.assertIn(reported, self.forage(*arguments, "-r", "P/H", "--on-nan", "warn").stderr)
+        self.assertIn(reported, self.forage(*arguments, "-r", "P/H", "--on-nan", "stop", status=1).stderr)
         self.assertNotIn("becomes", self.forage(*arguments, "-r", "P/H", "--on-nan", "ignore").stderr)
 
     def test_measures_of_an_experiment_demand_what_they_read(self):

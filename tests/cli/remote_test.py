@@ -143,7 +143,7 @@ class Remote(Cli):
         with self.lasting(process):
             self.assertEqual(process.stderr.readline(), f"continuing from cycle {cycle}\n")
             port = int(re.fullmatch(r"remote: commands are received at 127\.0\.0\.1:(\d+)\n", process.stderr.readline())[1])
-            self.assertEqual(process.stderr.readline(), "remote: the run is stopped; cmd:start goes on with it\n")
+            self.assertEqual(process.stderr.readline(), "remote: the run is stopped; cmd:start continues it\n")
             with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
                 for command in ("cmd:stopsampler", "cmd:quit"):  # there is a cycle between them when it runs
                     sender.sendto(command.encode(), ("127.0.0.1", port))

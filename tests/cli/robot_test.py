@@ -1,6 +1,6 @@
 """The data sheet of the robot, the sizes of the groups of modules, and systems that drive other robots.
 
-With FORAGE_REWRITE_EXPECTATIONS set, the tables and the drawing of the data sheet are written anew.
+With FORAGE_REWRITE_EXPECTATIONS set, the tables and the drawing of the data sheet are rewritten.
 
 usage: robot_test.py FORAGE PROJECT [TEST...]
 """
@@ -22,7 +22,7 @@ PAGE_FILE = PROJECT / "docs/reference/robot.md"
 PAGE = PAGE_FILE.read_text()
 PICTURE = PROJECT / "docs/reference/pictures/robot.svg"
 REWRITE = "FORAGE_REWRITE_EXPECTATIONS" in os.environ
-REMEDY = "write it anew with FORAGE_REWRITE_EXPECTATIONS=1"
+REMEDY = "rewrite it with FORAGE_REWRITE_EXPECTATIONS=1"
 DAC = (SYSTEMS / "dac_foraging.iqr").read_text()
 
 

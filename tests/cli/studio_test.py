@@ -520,7 +520,7 @@ class Editing(unittest.TestCase):
 
 
 class Crashes(unittest.TestCase):
-    """A studio that is killed: what it kept, and that the run goes on as if nothing had happened."""
+    """A studio that is killed: what it kept, and that the run continues as if nothing had happened."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

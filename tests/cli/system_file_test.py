@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The reference of the system file: its tables are those of the check, its examples are sound, and its pictures are what the examples draw.
 
-With FORAGE_REWRITE_EXPECTATIONS set, the tables and pictures are written anew.
+With FORAGE_REWRITE_EXPECTATIONS set, the tables and pictures are rewritten.
 
 usage: system_file_test.py FORAGE PROJECT [TEST...]
 """
@@ -21,7 +21,7 @@ REFERENCE = pathlib.Path(sys.argv[2]).resolve() / "docs/reference"
 PAGES = [REFERENCE / "system-file.md", REFERENCE / "types.md"]
 PICTURES = REFERENCE / "system-file"
 REWRITE = "FORAGE_REWRITE_EXPECTATIONS" in os.environ
-REMEDY = "write it anew with FORAGE_REWRITE_EXPECTATIONS=1"
+REMEDY = "rewrite it with FORAGE_REWRITE_EXPECTATIONS=1"
 
 TABLE = re.compile(r"<!-- table: (\w+) -->\n(.*?)<!-- end -->\n", re.DOTALL)
 EXAMPLE = re.compile(r"<!-- example: (\w+) A=(\S+) B=(\S+)(?: plot=(\w+))? -->\n```xml\n(.*?)```\n(?:\n!\[.*?\]\(.*?\)\n)?", re.DOTALL)

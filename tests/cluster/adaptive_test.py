@@ -123,7 +123,7 @@ class Adaptive(ExperimentTest):
         self.assertEqual(self.tables("whole"), before)
 
     def test_a_failed_run(self):
-        """It has no number for a decision, and when it is executed again, the decisions are made anew."""
+        """It has no number for a decision, and when it is executed again, the decisions are made again."""
         self.write_rounds(CONFIDENCE)
         self.whole()
         (self.folder / "x" / "runs").mkdir(parents=True)

@@ -5,7 +5,7 @@ words beside it, with at most 200 MB. tests/bench/bad_input.py measures how long
 
 A folder bad_KIND contains the cases of a kind. A case is NAME.ending, or a folder NAME with NAME.ending and the files that it
 needs; NAME.expect is the complete output. It runs in a copy of the folder `sound`, in which everything else is correct.
-made_input.py makes files that cannot be kept. FORAGE_REWRITE_EXPECTATIONS=1 writes the expected outputs anew: read
+made_input.py makes files that cannot be kept. FORAGE_REWRITE_EXPECTATIONS=1 rewrites the expected outputs: read
 them as a user would before you keep them.
 """
 

@@ -1,5 +1,5 @@
 // The messages for mistakes in systems. Each file of bad_systems/ contains one mistake, and NAME.expect is
-// the complete output for it. FORAGE_REWRITE_EXPECTATIONS=1 writes the expected outputs anew; read them as a
+// the complete output for it. FORAGE_REWRITE_EXPECTATIONS=1 rewrites the expected outputs; read them as a
 // user would before you keep them.
 #include <algorithm>
 #include <cstdlib>

@@ -8,7 +8,7 @@ import os
 import resource
 
 CASES = {}
-NOBODY = 65534
+UNPRIVILEGED = 65534
 
 
 @dataclasses.dataclass
@@ -111,7 +111,7 @@ def as_nobody(here):
         return {}
     for path in (here.parent, here):
         os.chmod(path, 0o755)
-    return {"user": NOBODY, "group": NOBODY, "extra_groups": []}
+    return {"user": UNPRIVILEGED, "group": UNPRIVILEGED, "extra_groups": []}
 
 
 def no_space():

@@ -23,7 +23,7 @@ BROKEN = pathlib.Path(sys.argv[2]).resolve() / "broken"
 
 # The message for each broken plugin: the error, and a part of the hint.
 CORPUS = {
-    "another_each_time": (r"'neuronAnotherEachTime' that does not work: it computes other numbers when it starts anew", ""),
+    "another_each_time": (r"'neuronAnotherEachTime' that does not work: it computes other numbers when it starts again", ""),
     "default_outside": (r"'neuronDefaultOutside' that does not work: its parameter 'rate' is 5 by default, outside its own range 0 to 1", ""),
     "reads_modulation": (r"'neuronReadsModulation' that does not work: its update\(\) reads the modulatory input, and its describe\(\) does not "
                          r"declare reads\(InputKind::modulatory\)", ""),
@@ -31,7 +31,7 @@ CORPUS = {
     "crashes": (r"'neuronCrashes' that does not work: its update\(\) crashes: Segmentation fault", ""),
     "fifth_random": (r"'neuronFifthRandom' that does not work: it uses random number 4, but declares 4", ""),
     "misspelt_random": (r"'neuronMisspeltRandom' that does not work: its update\(\) reads random numbers that it does not declare", ""),
-    "static_synapse": (r"'synapseStatic' that does not work: it computes other numbers when it starts anew", ""),
+    "static_synapse": (r"'synapseStatic' that does not work: it computes other numbers when it starts again", ""),
     "text_range": (r"neuron type 'neuronTextRange' declares a range for the parameter 'mode', which is a text", ""),
     "undeclared_event": (r"'neuronUndeclaredEvent' that does not work: its update\(\) reads Input::event, which stays 1: "
                          r"'double event_probability\(\) const' is missing or misspelt", ""),

@@ -55,10 +55,10 @@ def test_a_sweep_is_that_of_a_file_with_any_workers(adapt, element, workers, tmp
     assert (table == forage.sweep(REACTIVE, WORLD, VALUES, jobs=1, **OPTIONS, **adapt)).all()
     file = file_of(tmp_path, element)
     assert (table == forage.experiment(file, directory=tmp_path / "whole")).all()
-    told = []
-    assert (table == forage.experiment(file, directory=tmp_path / "parts", executor=workers, parts=3, progress=lambda fraction, text: told.append(text))).all()
+    reported = []
+    assert (table == forage.experiment(file, directory=tmp_path / "parts", executor=workers, parts=3, progress=lambda fraction, text: reported.append(text))).all()
     assert (table == forage.sweep(REACTIVE, WORLD, VALUES, directory=tmp_path / "sweep", executor=workers, parts=3, **OPTIONS, **adapt)).all()
-    assert "3/3 parts" in told and any(text.startswith("round 2: ") for text in told)
+    assert "3/3 parts" in reported and any(text.startswith("round 2: ") for text in reported)
     assert not list((tmp_path / "parts/runs").iterdir()) and not list((tmp_path / "sweep/runs").iterdir())  # everything was executed by workers
     for name in ("results.csv", "summary.csv"):
         assert len({(tmp_path / folder / name).read_bytes() for folder in ("whole", "parts", "sweep")}) == 1

@@ -1,4 +1,4 @@
-"""`pip install --no-build-isolation .` from a copy of the sources, into an environment of its own. It builds the library anew."""
+"""`pip install --no-build-isolation .` from a copy of the sources, into an environment of its own. It builds the library again."""
 import shutil
 import subprocess
 import sys

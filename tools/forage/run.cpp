@@ -61,7 +61,7 @@ int run_to_end(const RunOptions& o, PreparedRun& prepared) {
     if (prepared.remote && !o.quiet) {
         fmt::print(stderr, "remote: commands are received at {}\n", prepared.remote->address());
         if (prepared.remote->paused())  // it was when the checkpoint was written
-            fmt::print(stderr, "remote: the run is stopped; cmd:start goes on with it\n");
+            fmt::print(stderr, "remote: the run is stopped; cmd:start continues it\n");
         std::fflush(stderr);
     }
     callbacks.after_cycle = [&] {

@@ -49,7 +49,7 @@ Equivalent of_world_edit(const EditedFile& file, const nlohmann::json& operation
 Equivalent of_world_copy(const EditedFile& file, const std::string& to);
 /// A robot or an object that is moved before the cycle with this number.
 Equivalent of_move(const std::string& name, double x, double y, double heading, std::uint64_t cycle);
-/// A new trial, likewise; `start` is -1 for the next start pose.
+/// A new trial before the cycle with this number; `start` is -1 for the next start pose.
 Equivalent of_trial(const std::string& robot, int start, std::uint64_t cycle);
 /// The system and the world of a run that restarts; `edited` when the file of the system is not what runs.
 struct Opened {

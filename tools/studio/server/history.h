@@ -76,7 +76,7 @@ class History {
         for (const auto& [cycle, bytes] : checkpoints_) bytes_ += bytes.size();
         if (checkpoints_.empty()) throw ArchiveError("the past of the run has no beginning");
     }
-    /// Whether going on from `now` to `cycle` is shorter than from a checkpoint.
+    /// Whether continuing from `now` to `cycle` is shorter than from a checkpoint.
     bool ahead(std::uint64_t now, std::uint64_t cycle) const {
         return now <= cycle && std::prev(checkpoints_.upper_bound(cycle))->first <= now;
     }

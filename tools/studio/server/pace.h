@@ -38,7 +38,7 @@ class Pace {
     const std::string& mode() const { return mode_; }
     double value() const { return value_; }
 
-    /// The run goes on after a pause, or from another cycle: nothing is due from before.
+    /// The run continues after a pause, or from another cycle: nothing is due from before.
     void restart() { from_ = measured_from_ = -1; }
     /// The run is started: nothing is measured yet.
     void start() { restart(), measured_rate_ = 0; }

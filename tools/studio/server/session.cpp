@@ -327,7 +327,8 @@ void Session::go_to(std::uint64_t cycle) {
     if (live.reference && (cycle < live.reference->from || !live.failed.empty())) end_reference();
     if (!live.failed.empty() || !live.history.ahead(live.run->cycle(), cycle)) {
         if (live.sampler) throw InputError("a sampler cannot go back", "stop the sampler first");
-        if (!live.failed.empty()) {  // a run that failed cannot go on, so its past is restored into a new one
+        if (!live.failed
+                 .empty()) {  // a run that failed cannot continue, so its past is restored into a new one
             auto past = live.history;
             const RunInput input = edited.input;
             open(input);
@@ -356,7 +357,7 @@ void Session::set_speed(const std::string& mode, double value) {
 
 double Session::work(double now) {
     if (!pages.clients.empty() && now - edited.outside_checked_at >= look_interval)
-        look_outside(), edited.outside_checked_at = now;
+        check_file_on_disk(), edited.outside_checked_at = now;
     auto& pace = live.pace;
     const double rate = pace.rate(live.run->seconds_per_cycle());
     if (live.pace.running) {

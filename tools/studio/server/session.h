@@ -58,7 +58,7 @@ class Session {
     /// Keeps the session in the user's folder of states from now on, so that a killed program loses at most
     /// the time between two savings. Throws std::runtime_error.
     void keep();
-    /// Goes on with the session that was killed. Throws InputError when there is none, or when it cannot go
+    /// Continues the session that was killed. Throws InputError when there is none, or when it cannot go
     /// on.
     void recover();
     /// What is left of a session of this system that was killed: {"cycle", "seconds", "saved"}, the last in
@@ -99,10 +99,10 @@ class Session {
 
     void read_plot_config(const Run& run);  ///< throws InputError
     void save();                            ///< into the folder of states; notes what goes wrong
-    void keep_anew();                       ///< under the name that the system has now
+    void restart_autosave();                ///< under the name that the system has now
     void look_for_killed();
     struct Killed;
-    /// Reads what was kept of a session. Throws InputError when it cannot go on.
+    /// Reads what was kept of a session. Throws InputError when it cannot continue.
     static Killed read_killed(std::string_view content);
     /// A started run of the system, with the touches of pages. Throws InputError.
     std::pair<std::unique_ptr<Run>, Touches*> make_run(const RunInput& input, std::string* files = nullptr);
@@ -165,7 +165,7 @@ class Session {
     /// Gives a description of parameters the values of the saved file. Returns false for an item of another
     /// file.
     bool saved_values(json& described) const;
-    void look_outside();  ///< whether the file has changed
+    void check_file_on_disk();  ///< whether the file has changed
     json document_message() const;
     /// The system that pages see: that of the document, with those that run beside it.
     model::System shown_system() const;

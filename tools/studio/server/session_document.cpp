@@ -96,7 +96,7 @@ void Session::open_document(const RunInput& input) {
     note_opening();
     ++edited.generation;  // what pages write of the system before does not get into this one
     live.waiting_sampler = nullptr;
-    if (recovery.files) keep_anew();
+    if (recovery.files) restart_autosave();
     // The page arranges its panels when it has the system, and an arena is one of them.
     pages.broadcast(world_message()), pages.broadcast(system_message()), broadcast_document();
 }
@@ -149,7 +149,7 @@ void Session::broadcast_document() {
     pages.broadcast(document_message());
 }
 
-void Session::look_outside() {
+void Session::check_file_on_disk() {
     const bool outside = edited.document->changed_outside();
     if (outside == edited.outside) return;
     edited.outside = outside;

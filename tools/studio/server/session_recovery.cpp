@@ -37,7 +37,7 @@ std::set<std::string> systems_of_killed() {
     return out;
 }
 
-const char* const begin_anew = "begin anew, or close this message";
+const char* const start_again = "start again, or close this message";
 
 json json_of(const Changes& changes) {
     json out = json::object();
@@ -61,7 +61,7 @@ void Session::keep() {
     recovery.version = live.version;  // there is nothing to lose yet
 }
 
-void Session::keep_anew() {
+void Session::restart_autosave() {
     recovery.files->forget_running();
     try {
         keep();
@@ -147,7 +147,7 @@ Session::Killed Session::read_killed(std::string_view content) {
     if (head.version != FORAGE_VERSION)
         throw InputError(fmt::format("the session that was killed is of forage {}, and this is {}",
                                      head.version, FORAGE_VERSION),
-                         begin_anew);
+                         start_again);
     Killed out;
     out.cycle = head.cycle;
     archive_input(archive, out.opened), archive_input(archive, out.begun);
@@ -175,7 +175,7 @@ Session::Killed Session::read_killed(std::string_view content) {
         throw InputError(
             fmt::format("the world or a linked process of '{}' has changed since the session was killed",
                         out.begun.system),
-            "restore the files, or begin anew");
+            "restore the files, or start again");
     return out;
 }
 
@@ -186,7 +186,7 @@ void Session::recover() {
         const auto others = systems_of_killed();
         throw InputError(fmt::format("no session of '{}' was killed", edited.input.system),
                          others.empty()
-                             ? "begin anew"
+                             ? "start again"
                              : fmt::format("there are sessions of '{}'", fmt::join(others, "', '")));
     }
     auto killed = read_killed(*content);

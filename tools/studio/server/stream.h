@@ -105,7 +105,7 @@ class Stream {
     Chunk chunk_;
 };
 
-/// What pages watch of a run, and of another one that goes beside it.
+/// What pages watch of a run, and of another one that runs next to it.
 class SourcePool {
   public:
     static constexpr std::string_view beside = "reference:";

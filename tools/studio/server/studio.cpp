@@ -15,7 +15,7 @@ namespace forage::studio {
 
 namespace {
 
-/// Begins to keep the session, or goes on with the one that was killed. Returns what the user should know.
+/// Begins to keep the session, or continues the one that was killed. Returns what the user should know.
 std::string keep(Session& session, bool recover) {
     try {
         session.keep();
@@ -26,7 +26,7 @@ std::string keep(Session& session, bool recover) {
     if (recover) return session.recover(), "";
     if (session.killed().is_null()) return "";
     return fmt::format(
-        "a session of this system was killed in cycle {}; go on with it with --recover, or in the page",
+        "a session of this system was killed in cycle {}; continue it with --recover, or in the page",
         session.killed().at("cycle").get<std::uint64_t>());
 }
 

@@ -14,7 +14,7 @@ struct StudioOptions {
     RunInput input;
     std::uint16_t port = 0;   ///< 0: a free one
     std::string plot_config;  ///< a layout that pages begin with (.layout.json); may be empty
-    bool recover = false;     ///< whether to go on with the session that was killed
+    bool recover = false;     ///< whether to continue the session that was killed
     bool running = false;     ///< whether the run begins at once
     std::string token;        ///< empty: a random one
     std::string shipped;      ///< the folder of the systems that come with Forage; may be empty

@@ -158,8 +158,8 @@ TEST_CASE("Unknown groups at the ends of a connection are reported with the id t
     CHECK(one("source=\"a\"", "source=\"A\"") ==
           "28:44: error: the source 'A' of connection 'A to B' is not the id of a group | 'A' is a name; the "
           "group's id is 'a'");
-    CHECK(one("source=\"a\"", "source=\"nobody\"") ==
-          "28:44: error: the source 'nobody' of connection 'A to B' is not the id of a group | ids are the "
+    CHECK(one("source=\"a\"", "source=\"nothing\"") ==
+          "28:44: error: the source 'nothing' of connection 'A to B' is not the id of a group | ids are the "
           "id attributes of <Group> elements");
     CHECK(
         one(synapse, "") ==

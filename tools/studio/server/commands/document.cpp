@@ -53,7 +53,7 @@ void refuse_taken_ids(const model::System& system, const model::ProcessFile& fil
 }
 
 json read_document(Session& s, const Request&) {
-    s.look_outside();
+    s.check_file_on_disk();
     const auto& text = s.edited.document->text();
     if (text.size() > max_text)
         throw InputError(fmt::format("the text has {} MB, too many for a page", text.size() >> 20),
@@ -94,7 +94,7 @@ json save_document(Session& s, const Request& r) {
     s.edited.outside = false;
     if (s.edited.current) s.edited.built = document.system();
     note_recent(document.path());
-    if (s.recovery.files && document.path() != before) s.keep_anew(), s.recovery.version.reset();
+    if (s.recovery.files && document.path() != before) s.restart_autosave(), s.recovery.version.reset();
     s.log({.command = "save",
            .title = (to == before ? "save " : "save as ") + fs::path(to).filename().string(),
            .scripts = of_save(s.edited_file(before), to)});

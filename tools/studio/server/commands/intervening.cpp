@@ -252,7 +252,7 @@ std::vector<Command> intervening_commands() {
          .result = "{ file: string }",
          .apply = write_patterns},
         {.name = "move",
-         .doc = "Moves a robot or an object to a free place, in m and rad. The trial goes on.",
+         .doc = "Moves a robot or an object to a free place, in m and rad. The trial continues.",
          .arguments = {optional("robot", text()),
                        optional("object", text()),
                        {"x", number()},

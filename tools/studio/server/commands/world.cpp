@@ -206,7 +206,7 @@ std::vector<Command> world_commands() {
                        optional("title", text()),
                        optional("merge", text(), "", "joins the step before when that has the same name"),
                        optional("run", boolean(), false,
-                                "whether the run goes on in its world with what these operations `move`")},
+                                "whether the run continues in its world with what these operations `move`")},
          .result = "{ ids: string[]; generation: number }",
          .changes_run = true,
          .apply = edit_world},

@@ -186,7 +186,7 @@ TEST_CASE("a parameter changes the run and the file, however it is set, and is u
     CHECK(threshold()["loaded"] == 0.25);
 }
 
-TEST_CASE("a system that cannot run is edited on, and the last run that could goes on") {
+TEST_CASE("a system that cannot run is edited on, and the last run that could continues") {
     Editor e;
     const auto cells = e.last["system"]["processes"][0]["groups"][0];
     e.edit({{{"do", "type"}, {"id", cells["id"]}, {"part", "neuron"}, {"type", "neuronRandomSpike"}},
@@ -280,7 +280,8 @@ TEST_CASE("a file that is not even XML is opened, corrected in its text, and run
     e.result({{"command", "save"}});
     CHECK(e.content() == sound + "<!-- mine -->\n");
 
-    // Both texts were one step, which is undone and done again; the run of the sound text goes on meanwhile.
+    // Both texts were one step, which is undone and done again; the run of the sound text continues
+    // meanwhile.
     e.result({{"command", "undo"}});
     CHECK(e.text() == broken);
     CHECK(e.last["document"]["readable"] == false);
@@ -317,7 +318,7 @@ TEST_CASE("a session begins with a file that has mistakes, and keeps what it was
     CHECK(e.last["document"]["opened_with_mistakes"] == true);
     e.session->work(100), e.session->work(200);
 
-    // It is killed, and goes on as it was.
+    // It is killed, and continues as it was.
     e.session.reset();
     e.session.emplace(input, send);
     e.session->keep();
@@ -586,7 +587,7 @@ TEST_CASE("another type outside and another parameter here are a conflict, and b
     CHECK(e.last["document"]["outside"] == "changed");
 }
 
-TEST_CASE("comments, phantoms and lines between processes are edited without building the run anew") {
+TEST_CASE("comments, phantoms and lines between processes are edited without rebuilding the run") {
     Editor e;
     const std::string before = e.content();
     const std::string page = e.last["system"]["processes"][2]["id"];
@@ -641,7 +642,7 @@ TEST_CASE("comments, phantoms and lines between processes are edited without bui
     CHECK(e.text() == before);
 }
 
-TEST_CASE("items tell what their forms show, and the synapses of a pattern are told before it is set") {
+TEST_CASE("items say what their forms show, and the synapses of a pattern are counted before it is set") {
     Editor e;
     const auto connection = e.last["system"]["connections"][0];
     const json item = e.result({{"command", "item"}, {"item", connection["id"]}});
@@ -883,7 +884,7 @@ TEST_CASE("a message that is too deep has an answer") {
     CHECK(e.last["reply"]["ok"] == false);
 }
 
-TEST_CASE("actions that begin the run anew say what they end, and how to do it without the studio") {
+TEST_CASE("actions that restart the run say what they end, and how to do it without the studio") {
     Editor e;
     int recordings = 0;
     const auto action = [&](const json& command) {
@@ -899,25 +900,25 @@ TEST_CASE("actions that begin the run anew say what they end, and how to do it w
         return e.last["action"];
     };
     const std::string open = "run = forage.open(\"" + e.file + "\", world=\"";
-    json told = action({{"command", "restart"}, {"seed", 7}});
-    CHECK(told["shell"] == "--seed 7");
+    json reported = action({{"command", "restart"}, {"seed", 7}});
+    CHECK(reported["shell"] == "--seed 7");
     e.result({{"command", "restart"}, {"seed", 8}});
     CHECK(e.last["action"]["ended"] == json::array());  // there was nothing
 
     const std::string arena = FORAGE_SOURCE_DIR "/systems/worlds/open_arena.world";
-    told = action({{"command", "world_open"}, {"world", arena}});
-    CHECK(told["title"] == "restart in open_arena.world");
-    CHECK(told["shell"] == "--world '" + arena + "'");
-    CHECK(told["python"] == open + arena + "\", seed=8)");
+    reported = action({{"command", "world_open"}, {"world", arena}});
+    CHECK(reported["title"] == "restart in open_arena.world");
+    CHECK(reported["shell"] == "--world '" + arena + "'");
+    CHECK(reported["python"] == open + arena + "\", seed=8)");
 
     ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
     const std::string mine = (e.folder / "mine.world").string();
-    told = action({{"command", "world_save"}, {"file", mine}});
-    CHECK(told["shell"] == "forage edit '" + arena + "' '[]' -o '" + mine + "'\n--world '" + mine + "'");
-    CHECK(told["python"] == "forage.edit_file(\"" + arena + "\", [], save_as=\"" + mine + "\")\n" + open +
-                                mine + "\", seed=8)");
-    told = action({{"command", "world_save"}});
-    CHECK(told["shell"] == "--world '" + mine + "'");
+    reported = action({{"command", "world_save"}, {"file", mine}});
+    CHECK(reported["shell"] == "forage edit '" + arena + "' '[]' -o '" + mine + "'\n--world '" + mine + "'");
+    CHECK(reported["python"] == "forage.edit_file(\"" + arena + "\", [], save_as=\"" + mine + "\")\n" + open +
+                                    mine + "\", seed=8)");
+    reported = action({{"command", "world_save"}});
+    CHECK(reported["shell"] == "--world '" + mine + "'");
 }
 
 TEST_CASE("a system without a robot leaves its world") {
@@ -1005,7 +1006,7 @@ TEST_CASE("a world that cannot run is not saved, and the error names the place")
     CHECK(problem["line"].get<int>() > 1);
     CHECK(problem["message"].get<std::string>().find("no_bug") != std::string::npos);
     for (const auto& entry : fs::directory_iterator(e.folder)) CHECK(entry.path().extension() != ".world");
-    CHECK(cycle() == 5);  // the run goes on in the old world
+    CHECK(cycle() == 5);  // the run continues in the old world
     CHECK(e.result({{"command", "world_document"}})["dirty"] == true);
     e.result({{"command", "undo"}});
     // A world without the robot of the system cannot run, either, and an older file keeps its content.

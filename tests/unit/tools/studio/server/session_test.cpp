@@ -223,9 +223,9 @@ TEST_CASE("the past is the same however it is reached") {
     const std::uint64_t cycle = GENERATE(0u, 1u, 249u, 250u, 251u, 500u, 699u);
     f.result({{"command", "seek"}, {"cycle", cycle}});
     CHECK(f.session.run().cycle() == cycle);
-    Fixture anew;
-    if (cycle > 0) anew.result({{"command", "step"}, {"cycles", cycle}});
-    CHECK(f.session.run().digest() == anew.session.run().digest());
+    Fixture fresh;
+    if (cycle > 0) fresh.result({{"command", "step"}, {"cycles", cycle}});
+    CHECK(f.session.run().digest() == fresh.session.run().digest());
     f.result({{"command", "seek"}, {"cycle", 700}});
     CHECK(f.session.run().digest() == at_700);
     CHECK(f.ask({{"command", "seek"}, {"cycle", 701}})["ok"] == false);
@@ -319,7 +319,7 @@ TEST_CASE("panels and sets of parameters are written and read back, in the form 
         again["overwrite"] = true;
         f.result(again);
     }
-    // It now has the values of the rows alone; what the system does not have is told, the rest is set.
+    // It now has the values of the rows alone; what the system does not have is reported, the rest is set.
     CHECK(f.result({{"command", "parameters_read"}, {"file", values}})["set"] == 1);
     std::string text = read_file(values);
     const std::string one =
@@ -542,7 +542,7 @@ TEST_CASE("the time between two savings of a session is set, and holds for the n
     std::filesystem::remove_all(folder);
 }
 
-TEST_CASE("a session that is killed while it runs goes on where it was kept, byte by byte") {
+TEST_CASE("a session that is killed while it runs continues where it was kept, byte by byte") {
     const auto folder = test::temporary_path("forage-studio-states");
     std::filesystem::remove_all(folder);
     setenv("XDG_STATE_HOME", folder.c_str(), 1);
@@ -614,7 +614,7 @@ TEST_CASE("a light that was moved is where it was put after a crash, too") {
     std::filesystem::remove_all(folder);
 }
 
-TEST_CASE("a comparison goes on after a crash, bit by bit") {
+TEST_CASE("a comparison continues after a crash, bit by bit") {
     const auto folder = test::temporary_path("forage-studio-compares");
     std::filesystem::remove_all(folder);
     setenv("XDG_STATE_HOME", folder.c_str(), 1);

@@ -132,7 +132,7 @@ export interface Commands {
     arguments: { group: string; patterns: number[][]; file: string; overwrite?: boolean | null };
     result: { file: string };
   };
-  /** Moves a robot or an object to a free place, in m and rad. The trial goes on. */
+  /** Moves a robot or an object to a free place, in m and rad. The trial continues. */
   move: {
     arguments: { robot?: string | null; object?: string | null; x: number; y: number; heading?: number | null; merge?: string | null; generation?: number | null };
     result: { generation: number };

@@ -144,9 +144,9 @@ export interface StatusMessage {
     current: TrialProgress;
     last: TrialProgress | null;
   } | null;
-  /** The run goes beside another one since this cycle: sources with "reference:" before them. */
+  /** The cycle since which a second run is compared with this one: its sources have "reference:" before them. */
   compare: { from: number } | null;
-  /** A session of this system that was killed, and that can go on; `saved` in s since 1970. */
+  /** A session of this system that was killed, and that can continue; `saved` in s since 1970. */
   killed: { cycle: number; seconds: number; saved: number } | null;
   /** Why the session cannot be kept for the case of a crash; empty while it can. */
   save_failed: string;
@@ -168,7 +168,7 @@ export interface ActionMessage {
   values?: Record<string, ParameterValue>;
   shell: string;
   python: string;
-  /** What has ended, as the run was built anew or has begun anew. */
+  /** What has ended, as the run was rebuilt or has restarted. */
   ended: ('past' | 'comparison' | 'recording')[];
 }
 

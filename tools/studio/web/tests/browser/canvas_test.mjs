@@ -126,7 +126,7 @@ export default async function ({ folder, context, start, open, faults, step }) {
   for (let i = 0; i < 4; i++) await page.keyboard.press('Control+z');
   await returns(it, was);
 
-  step('it is written anew by keys, given up by Escape, copied, pasted, and deleted');
+  step('it is rewritten by keys, given up by Escape, copied, pasted, and deleted');
   await comments.first().click();
   await canvas.focus();
   await page.keyboard.press('Enter');

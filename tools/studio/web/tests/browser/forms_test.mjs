@@ -106,7 +106,7 @@ export default async function ({ folder, context, start, open, faults, step }) {
     return path && box && Math.abs(path[1] - Number(box.style.transform.match(/[\d.-]+/g)[1]) - box.offsetHeight) < 1;
   });
 
-  step('the page is saved as a picture, printed alone, and has a map if one likes');
+  step('the page is saved as a picture, printed alone, and has an optional map');
   const svg = readFileSync(await download(() => find(page, 'Save the diagram as SVG')), 'utf8');
   assert.ok(svg.startsWith('<svg') && svg.includes('Threshold CR') && svg.includes('url(#inhibitory)'));
   await diagram.getByRole('button', { name: 'Save or print the page' }).click();

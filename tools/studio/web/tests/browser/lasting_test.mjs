@@ -7,7 +7,7 @@ import { eventually, find, picture, until } from './support.mjs';
 const cycle = (page) => page.getByLabel('Moment of the run').inputValue().then(Number);
 
 export default async function ({ folder, start, open, step }) {
-  step('a studio that is killed: the next one offers to go on, with the panels and the comparison as they were');
+  step('a studio that is killed: the next one offers to continue, with the panels and the comparison as they were');
   const first = start();
   const page = await open(await first.address);
   await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
@@ -24,7 +24,7 @@ export default async function ({ folder, start, open, step }) {
   first.child.removeAllListeners('exit');
   first.child.kill('SIGKILL');
 
-  step('the page of the one that was killed says so, and how to go on, until it reaches the next one');
+  step('the page of the one that was killed says so, and how to continue, until it reaches the next one');
   const gone = page.getByRole('alert').filter({ hasText: 'Forage has ended or cannot be reached' });
   await gone.getByText('forage studio systems/dac_foraging.iqr --world systems/worlds/basic_arena.world --recover', { exact: true }).waitFor();
 

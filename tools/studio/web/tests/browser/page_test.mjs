@@ -13,7 +13,7 @@ export default async function ({ start, open, faults, step }) {
   await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
   await page.getByRole('navigation').getByText('Head Direction Cells').waitFor();
 
-  step('all buttons of the diagram have room; that there is nothing to undo is told, and is no error');
+  step('all buttons of the diagram have room; that there is nothing to undo is reported, and is no error');
   const cut = await page.getByRole('toolbar', { name: 'Editing' }).evaluate((bar) => [...bar.querySelectorAll('button')].filter((b) => b.getBoundingClientRect().right > bar.getBoundingClientRect().right).map((b) => b.textContent));
   assert.deepEqual(cut, []);
   await page.keyboard.press('Control+z');

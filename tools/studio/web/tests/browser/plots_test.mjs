@@ -155,7 +155,7 @@ export default async function ({ folder, start, open, faults, step }) {
   await time.getByRole('button', { name: 'Change Bug/Light:inhIn(16,1)' }).waitFor();
   await time.getByRole('button', { name: 'Remove Bug/Light:inhIn(16,1)' }).click();
 
-  step('time: a part that is chosen with a drag stays while the run goes on, until Escape');
+  step('time: a part that is chosen with a drag stays while the run continues, until Escape');
   await page.getByRole('button', { name: 'Run', exact: true }).click();
   await cycle(150);
   const traces = time.getByRole('application');

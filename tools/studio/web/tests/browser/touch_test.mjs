@@ -74,7 +74,7 @@ export default async function ({ folder, start, open, faults, step }) {
   await press('Enter');
   await page.getByText(/values? (is|are) taken over/).waitFor();
 
-  step('any speed; the seed is shown, and another one begins the run anew');
+  step('any speed; the seed is shown, and another one restarts the run');
   await page.getByRole('button', { name: /^Another speed/ }).click();
   await page.getByLabel('cycles per second').fill('12.5');
   await press('Enter');
@@ -95,7 +95,7 @@ export default async function ({ folder, start, open, faults, step }) {
   await page.getByRole('button', { name: 'Undo' }).click();
   await page.getByText(/^undo: move/).first().waitFor({ state: 'attached' });
 
-  step('a light is moved while the run goes on, and put back');
+  step('a light is moved while the run continues, and put back');
   for (let i = 0; i < 3; i++) await page.getByRole('button', { name: 'Step one cycle' }).click();
   await arena.focus();
   await press('Tab', 'Tab', 'Shift+ArrowLeft');

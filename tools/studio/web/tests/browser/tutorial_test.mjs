@@ -95,7 +95,7 @@ export default async function ({ folder, start, open, faults, step }) {
   await page.getByRole('dialog', { name: 'Save as' }).getByLabel('Name').fill('changed.iqr');
   await page.keyboard.press('Enter');
   await page.getByText('Saved as changed.iqr.').waitFor();
-  // What was asked for goes on when the dialog is closed.
+  // What was asked for continues when the dialog is closed.
   await tutorial.locator('.setup.active [data-open="1"]').waitFor();
   await tutorial.locator('.setup:not(.active) [aria-pressed]').first().waitFor({ state: 'detached' }); // its values were about another system
   assert.equal(await drop.count(), 0, 'what is saved is not lost');
@@ -110,7 +110,7 @@ export default async function ({ folder, start, open, faults, step }) {
   await page.getByRole('button', { name: 'Tutorial', exact: true }).click();
   await tutorial.waitFor();
 
-  step('links lead to other parts; after loading anew the same part is shown');
+  step('links lead to other parts; after reloading the same part is shown');
   await page.reload();
   await tutorial.getByRole('heading', { name: 'Tutorial 3: the adaptive layer' }).waitFor();
 

@@ -56,7 +56,7 @@ export default async function ({ start, open, faults, step }) {
   await inspector(page).waitFor();
   await page.getByRole('group', { name: 'Space plot of Adaptive/CS' }).waitFor();
   await page.getByRole('group', { name: 'Arena' }).waitFor();
-  assert.equal(await page.getByRole('group', { name: 'Arena' }).getAttribute('data-same'), 'yes', 'panels are moved, not made anew');
+  assert.equal(await page.getByRole('group', { name: 'Arena' }).getAttribute('data-same'), 'yes', 'panels are moved, not made again');
   const after = await stacks(page);
   const columns = (all) => all.filter((s) => /^(Arena|Diagram) /.test(s));
   const asBefore = () => eventually('the columns are as before', async () => isDeepStrictEqual(columns(await stacks(page)), columns(before)));

@@ -141,7 +141,7 @@ export default async function ({ forage, folder, start, open, faults, step }) {
   step('axe finds no serious fault of accessibility');
   await accessible(page);
 
-  step('a world that is not saved is marked, also in a page that was loaded anew, and is not left without a question');
+  step('a world that is not saved is marked, also in a page that was reloaded, and is not left without a question');
   const marked = page.getByRole('img', { name: 'its world has changes that are not saved' });
   await marked.waitFor();
   assert.match(await page.title(), /^● /);

@@ -46,7 +46,7 @@ describe('a trail', () => {
 });
 
 describe('the live world', () => {
-  it('has poses, and none of what is absent; a run that begins anew has no trails', () => {
+  it('has poses, and none of what is absent; a run that begins again has no trails', () => {
     const { streams, send } = sources();
     const live = new LiveWorld();
     live.changed = vi.fn();
@@ -93,9 +93,9 @@ describe('keys', () => {
   const [bug] = thingsOf(world);
   it('that come while a step is under way are summed', async () => {
     const moves: number[] = [];
-    const told: string[] = [];
+    const reported: string[] = [];
     let answer = () => {};
-    const mover = new Mover((_, to) => new Promise<void>((done) => (moves.push(to.x), (answer = done))), (text) => told.push(text));
+    const mover = new Mover((_, to) => new Promise<void>((done) => (moves.push(to.x), (answer = done))), (text) => reported.push(text));
     const from = { x: 0, y: 0, yaw: 0 };
     const all = mover.step(bug!, from, { x: 1, y: 0, turn: 0 });
     void mover.step(bug!, from, { x: 1, y: 0, turn: 0 });
@@ -107,7 +107,7 @@ describe('keys', () => {
     expect(moves).toEqual([1, 3]);
     answer();
     await all;
-    expect(told[told.length - 1]).toContain('x 3.00 m');
+    expect(reported[reported.length - 1]).toContain('x 3.00 m');
     void mover.step(bug!, from, { x: 1, y: 0, turn: 0 }); // the new pose has not come yet
     expect(moves[2]).toBe(4);
     answer();
@@ -116,13 +116,13 @@ describe('keys', () => {
     void mover.step(bug!, { ...from, x: 7 }, { x: 1, y: 0, turn: 0 });
     expect(moves[3]).toBe(8);
   });
-  it('say why something stays, and begin anew from where it is', async () => {
-    const told: string[] = [];
+  it('say why something stays, and start again from where it is', async () => {
+    const reported: string[] = [];
     let refuse = true;
     const moves: number[] = [];
-    const mover = new Mover((_, to) => (moves.push(to.x), refuse ? Promise.reject(new Error('there is a wall\nhint: x')) : Promise.resolve()), (text) => told.push(text));
+    const mover = new Mover((_, to) => (moves.push(to.x), refuse ? Promise.reject(new Error('there is a wall\nhint: x')) : Promise.resolve()), (text) => reported.push(text));
     await mover.step(bug!, { x: 0, y: 0, yaw: 0 }, { x: 1, y: 0, turn: 0 });
-    expect(told).toEqual(['Bug stays: there is a wall']);
+    expect(reported).toEqual(['Bug stays: there is a wall']);
     refuse = false;
     await mover.step(bug!, { x: 0, y: 0, yaw: 0 }, { x: 0.5, y: 0, turn: 0 });
     expect(moves).toEqual([1, 0.5]);

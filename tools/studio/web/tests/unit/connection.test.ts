@@ -70,7 +70,7 @@ describe('Connection', () => {
     expect(socket.sent).toEqual([{ command: 'ack', seq: 1 }]);
   });
 
-  it('reports a frame that it cannot read, and goes on', () => {
+  it('reports a frame that it cannot read, and continues', () => {
     const { events, socket, draws } = connected();
     socket.onmessage({ data: new ArrayBuffer(3) });
     expect(events.fault).toHaveBeenCalledWith('the frame is shorter than its header');
@@ -90,7 +90,7 @@ describe('Connection', () => {
     await expect(bad).rejects.toThrow("there is no x\nhint: did you mean 'y'?");
   });
 
-  it('fails what is under way when the connection is lost, and connects anew, ever more slowly', async () => {
+  it('fails what is under way when the connection is lost, and connects again, ever more slowly', async () => {
     const { connection, events, socket } = connected();
     const pending = connection.request('run');
     socket.close();

@@ -15,7 +15,7 @@ it('an edit says once that the run cannot go back, until the user goes back or s
   expect(endedText(edit(0, 'past'), 3)).toMatch(/^The run restarts with the edited system: /);
 });
 
-it('an action that begins the run anew says what else has ended, but not the past', () => {
+it('an action that restarts the run says what else has ended, but not the past', () => {
   for (const command of ['restart', 'world_open', 'world_save']) {
     expect(endedText({ ...edit(0, 'past'), command }, 9)).toBeNull();
     expect(endedText({ ...edit(0, 'past', 'recording'), command }, 9)).toBe('The recording has ended.');
@@ -24,7 +24,7 @@ it('an action that begins the run anew says what else has ended, but not the pas
   expect(endedText(edit(40, 'past'), 9)).not.toBeNull();
 });
 
-it('the command that goes on after a crash is one for the shell', () => {
+it('the command that continues after a crash is one for the shell', () => {
   expect(recoverCommand('systems/dac.iqr', 'worlds/a.world')).toBe('forage studio systems/dac.iqr --world worlds/a.world --recover');
   expect(recoverCommand("Ada's work/dac.iqr", '')).toBe("forage studio 'Ada'\\''s work/dac.iqr' --recover");
   expect(recoverCommand('', '')).toBe('forage studio FILE --recover');

@@ -15,7 +15,7 @@ describe('the cells of a group over the last cycles', () => {
     expect([...m.values]).toEqual([NaN, 4, 5, 6, NaN, 40, 50, 60]);
     expect(m.last).toBe(12);
   });
-  it('begin anew when the run goes back', () => {
+  it('start again when the run goes back', () => {
     const m = new Moments(1, 3);
     m.add(block([7, 1], [8, 2]), 1);
     m.add(block([3, 5]), 2);

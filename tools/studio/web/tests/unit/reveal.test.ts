@@ -43,7 +43,7 @@ describe('the page of an item', () => {
 });
 
 describe('a problem', () => {
-  it('about a port or an input is told by the name of its field', () => {
+  it('about a port or an input names its field', () => {
     expect(formProblem({ message: "the cross reference '_motor' of moduleBug is not set", item: 'p', port: '_motor', unset: true }).message).toBe('Motor of the module of P has no group');
     expect(formProblem({ message: "the feedback input 'postact' of synapseLearning is not set", item: 'inner', port: 'postact', unset: true }).message).toBe('Activity of the synapse of inner has no state');
   });

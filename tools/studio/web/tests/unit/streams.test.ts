@@ -46,7 +46,7 @@ describe('Streams', () => {
     expect(append.mock.calls.map((c) => c[0].values[0])).toEqual([3, 4]);
   });
 
-  it('subscribes anew after the connection was lost, under the new numbers', async () => {
+  it('subscribes again after the connection was lost, under the new numbers', async () => {
     const { sent, streams } = server();
     const a = vi.fn();
     streams.subscribe('A', 'latest', a);
@@ -64,12 +64,12 @@ describe('Streams', () => {
   });
 
   it('tells what is refused to those who still wait for it', async () => {
-    const told: string[] = [];
-    const streams = new Streams(() => Promise.reject(new Error('no such group')), (source) => told.push(source));
+    const reported: string[] = [];
+    const streams = new Streams(() => Promise.reject(new Error('no such group')), (source) => reported.push(source));
     streams.subscribe('A', 'latest', () => {});
     streams.subscribe('B', 'latest', () => {})();
     await settle();
-    expect(told).toEqual(['A']);
+    expect(reported).toEqual(['A']);
   });
 
   it('ends a subscription that was given up before the server replied', async () => {

@@ -24,7 +24,7 @@ describe('traces over time', () => {
     end();
     expect(listeners.size).toBe(0);
   });
-  it('go on under another name, and end with their key', () => {
+  it('continue under another name, and end with their key', () => {
     follow(['Robot/Light'], ['a']);
     listeners.get('Robot/Light')!(rows([[3, 4]]), frame);
     expect(traces.merged(['a'], 10)).toEqual([[0, 0.5, 1, 1.5], [1, 2, 3, 4]]);
