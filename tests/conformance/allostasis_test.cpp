@@ -76,13 +76,13 @@ std::vector<int> steps(std::string text) {
     return out;
 }
 
-const std::array<std::string, 5> names{"temperature", "hydration", "energy", "security", "mating"};
+const std::array<std::string, 5> need_names{"temperature", "hydration", "energy", "security", "mating"};
 
 LocalViews views_of(const Recording& row) {
     LocalViews views;
     for (int i = 0; i < needs; ++i)
         for (int q = 0; q < 4; ++q)
-            views(i, q) = row[names[static_cast<std::size_t>(i)] + "_q" + std::to_string(q)];
+            views(i, q) = row[need_names[static_cast<std::size_t>(i)] + "_q" + std::to_string(q)];
     return views;
 }
 
@@ -90,7 +90,7 @@ bool contains(const std::vector<int>& all, int step) {
     return std::find(all.begin(), all.end(), step) != all.end();
 }
 
-struct Comparison {
+struct AllostasisComparison {
     std::string problem;
     void equal(const std::string& what, double ours, double recorded, double tolerance = 1e-12) {
         if (problem.empty() && !same(ours, recorded, tolerance))
@@ -119,7 +119,7 @@ TEST_CASE("The network of the drives gives the recorded rates") {
         if (std::filesystem::exists(path / "noise.csv"))
             noise = std::make_unique<Recording>(path / "noise.csv");
         Eigen::ArrayXd rates = Eigen::ArrayXd::Zero(units), z = rates, input = rates;
-        Comparison c;
+        AllostasisComparison c;
         int compared = 0;
         for (Recording out(path / "outputs.csv"); out.next() && c.problem.empty(); ++compared) {
             const int now = static_cast<int>(out["step"]);
@@ -147,7 +147,7 @@ TEST_CASE("Needs, drives and forces are the recorded ones") {
         settings.recovery = number(p.at("bonus"));
         settings.gain = number(p.at("amplifier"));
         for (int i = 0; i < needs; ++i) {
-            const auto& name = names[static_cast<std::size_t>(i)];
+            const auto& name = need_names[static_cast<std::size_t>(i)];
             settings.priority[i] = number(p.at(name + "_priority"));
             if (i != security) settings.decay[i] = number(p.at(name + "_discount"));
         }
@@ -157,7 +157,7 @@ TEST_CASE("Needs, drives and forces are the recorded ones") {
             views[static_cast<int>(t["step"])] = views_of(t);
         Recording noise(path / "noise.csv");
         Drives drives;
-        Comparison c;
+        AllostasisComparison c;
         int compared = 0;
         for (Recording out(path / "outputs.csv"); out.next() && c.problem.empty(); ++compared) {
             const int now = static_cast<int>(out["step"]);
@@ -166,12 +166,12 @@ TEST_CASE("Needs, drives and forces are the recorded ones") {
             if (contains(restarts, now)) drives.restart();
             REQUIRE(noise.next());
             FiveNeeds z;
-            for (int i = 0; i < needs; ++i) z[i] = noise["z_" + names[static_cast<std::size_t>(i)]];
+            for (int i = 0; i < needs; ++i) z[i] = noise["z_" + need_names[static_cast<std::size_t>(i)]];
             drives.step(z, settings, {});
             const std::string where = "step " + std::to_string(now) + ", ";
             c.equal(where + "normaliser", drives.normaliser(), out["normaliser"]);
             for (int i = 0; i < needs; ++i) {
-                const auto& name = names[static_cast<std::size_t>(i)];
+                const auto& name = need_names[static_cast<std::size_t>(i)];
                 c.equal(where + name, drives.states()[i], out["is_" + name]);
                 c.equal(where + "force of " + name, drives.forces()[i], out["force_" + name]);
             }
@@ -183,7 +183,7 @@ TEST_CASE("Needs, drives and forces are the recorded ones") {
 
 TEST_CASE("Fields and local views are the recorded ones") {
     for (const auto& path : cases_with("views.csv")) {
-        Comparison c;
+        AllostasisComparison c;
         int compared = 0;
         for (Recording t(path / "views.csv"); t.next(); ++compared) {
             const std::string where = "row " + std::string(t.text("row")) + ", ";
@@ -194,7 +194,7 @@ TEST_CASE("Fields and local views are the recorded ones") {
             c.equal(where + "mean temperature", TemperatureField(now).mean(), t["mean_temperature"]);
             for (int i = 0; i < needs; ++i)
                 for (int q = 0; q < 4; ++q)
-                    c.equal(where + names[static_cast<std::size_t>(i)], views(i, q), recorded(i, q));
+                    c.equal(where + need_names[static_cast<std::size_t>(i)], views(i, q), recorded(i, q));
         }
         CHECK(c.problem == "");
         CHECK(compared > 0);
@@ -203,7 +203,7 @@ TEST_CASE("Fields and local views are the recorded ones") {
 
 TEST_CASE("The day passes as recorded") {
     for (const auto& path : cases_with("day.csv")) {
-        Comparison c;
+        AllostasisComparison c;
         Day day;
         for (Recording t(path / "day.csv"); t.next();) {
             const std::string where = "row " + std::string(t.text("row")) + ", ";
@@ -216,16 +216,16 @@ TEST_CASE("The day passes as recorded") {
 
 TEST_CASE("Steering turns as recorded") {
     for (const auto& path : cases_with("steering.csv")) {
-        Comparison c;
+        AllostasisComparison c;
         Steering steering;
         for (Recording t(path / "steering.csv"); t.next();) {
             const std::string where = "row " + std::string(t.text("row")) + ", ";
             FiveNeeds forces;
-            for (int i = 0; i < needs; ++i) forces[i] = t["force_" + names[static_cast<std::size_t>(i)]];
+            for (int i = 0; i < needs; ++i) forces[i] = t["force_" + need_names[static_cast<std::size_t>(i)]];
             const auto wheels =
                 steering.step(t["bearing"], views_of(t), forces, 1, true, t["u_right"], t["u_left"]);
             for (int i = 0; i < needs; ++i) {
-                const auto& name = names[static_cast<std::size_t>(i)];
+                const auto& name = need_names[static_cast<std::size_t>(i)];
                 c.equal(where + "side of " + name, steering.sides()[i], t["side_" + name], 0);
                 c.equal(where + "direction of " + name, steering.directions()[i], t["sign_" + name], 0);
             }
@@ -240,7 +240,7 @@ TEST_CASE("Wheels hold a command and turn from obstacles as recorded") {
     for (const auto& path : cases_with("wheels.csv")) {
         INFO(path.filename());
         const bool control = parameters(path).at("allostatic") == "0";
-        Comparison c;
+        AllostasisComparison c;
         WheelControl wheels;
         for (Recording t(path / "wheels.csv"); t.next();) {
             Wheels z;
@@ -259,7 +259,7 @@ TEST_CASE("Mate and predator walk as recorded") {
     for (const auto& path : cases_with("walk.csv")) {
         INFO(path.filename());
         const bool mate = path.filename().string().find("mate") != std::string::npos;
-        Comparison c;
+        AllostasisComparison c;
         RandomWalk walk;
         for (Recording t(path / "walk.csv"); t.next();) {
             Eigen::Array<double, 8, 1> ranges;

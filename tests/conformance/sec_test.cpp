@@ -79,7 +79,7 @@ Settings settings_of(const Parameters& p) {
 }
 
 /// The first difference between what is here and what was recorded.
-struct Comparison {
+struct SequentialComparison {
     std::string problem;
     std::size_t numbers = 0;
     void equal(const std::string& what, double ours, double recorded) {
@@ -89,7 +89,7 @@ struct Comparison {
     }
 };
 
-void compare_retrieval(Comparison& c, const std::string& where, const std::vector<Match>& matches,
+void compare_retrieval(SequentialComparison& c, const std::string& where, const std::vector<Match>& matches,
                        const std::vector<Row>& recorded) {
     c.equal(where + "selected", static_cast<double>(matches.size()), static_cast<double>(recorded.size()));
     for (std::size_t i = 0; i < std::min(matches.size(), recorded.size()); ++i) {
@@ -102,7 +102,7 @@ void compare_retrieval(Comparison& c, const std::string& where, const std::vecto
     }
 }
 
-void compare_policy(Comparison& c, const std::string& where, const Decision& decision,
+void compare_policy(SequentialComparison& c, const std::string& where, const Decision& decision,
                     const std::vector<Row>& recorded) {
     std::set<Index> listed;
     for (const auto& row : recorded) {
@@ -115,7 +115,7 @@ void compare_policy(Comparison& c, const std::string& where, const Decision& dec
         if (!listed.count(a)) c.equal(where + "p of an action that is not listed", decision.policy[a], 0);
 }
 
-void compare_triggers(Comparison& c, const std::string& where, const EpisodicMemory& memory,
+void compare_triggers(SequentialComparison& c, const std::string& where, const EpisodicMemory& memory,
                       const std::vector<Row>& recorded) {
     std::map<std::pair<std::size_t, Index>, double> triggers;
     for (const auto& row : recorded)
@@ -128,7 +128,7 @@ void compare_triggers(Comparison& c, const std::string& where, const EpisodicMem
         }
 }
 
-Comparison play(const Path& path) {
+SequentialComparison play(const Path& path) {
     const Parameters p(path / "params.csv");
     const Settings settings = settings_of(p);
     const Index cells = p.integer("state_cells");
@@ -138,7 +138,7 @@ Comparison play(const Path& path) {
                policy = by_operation(path / "policy.csv"), triggers = by_operation(path / "triggers.csv"),
                rewards = by_operation(path / "rewards.csv");
     std::map<int, Eigen::ArrayXd> remembered;
-    Comparison c;
+    SequentialComparison c;
     Rows operations(path / "ops.csv");
     for (Fields f; operations.next(f) && c.problem.empty();) {
         const int op = number<int>(f[0]);

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 
 #include "core/types/module.h"
+#include "tests/support/catch.h"
 
 namespace forage::test {
 
@@ -96,5 +97,12 @@ class ModuleBench {
     std::vector<Column> out_;
     std::uint64_t cycle_ = 0;
 };
+
+/// The message, the hint and the place of the only problem of a module.
+inline std::string only_problem(ModuleBench& b) {
+    const auto all = b.problems();
+    REQUIRE(all.size() == 1);
+    return all[0].message + " | " + all[0].hint + " | " + all[0].port + all[0].parameter;
+}
 
 }  // namespace forage::test

@@ -1,6 +1,7 @@
 // Worlds for the tests of motion, simulation and the robot's module.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -41,5 +42,8 @@ inline bug::Model* find_model(bug::WorldDescription& world, const std::string& n
         if (m.name == name) return &m;
     return nullptr;
 }
+
+/// The distance between two positions, m.
+inline double apart(const bug::Pose2& a, const bug::Pose2& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 }  // namespace forage::test

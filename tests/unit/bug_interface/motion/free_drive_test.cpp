@@ -6,13 +6,13 @@
 #include <Eigen/Core>
 
 #include "tests/support/catch.h"
+#include "tests/unit/bug_interface/physics_step.h"
 
 using namespace forage;
 using namespace forage::bug;
+using test::physics_step_s;
 
 namespace {
-
-constexpr double step = 0.001;
 
 /// The reference, substep by substep: the velocity plugin, then the motion.
 Pose2 stepped(Pose2 at, const MotorCommand& command, std::uint64_t steps, const RandomStream* random,
@@ -22,8 +22,8 @@ Pose2 stepped(Pose2 at, const MotorCommand& command, std::uint64_t steps, const 
         if (random) random->uniform(first + k, u);
         const double forward = command.forward + (2 * u[0] - 1) * speed_noise,
                      turn = command.turn + (2 * u[1] - 1) * speed_noise;
-        at = {at.x + forward * std::cos(at.yaw) * step, at.y + forward * std::sin(at.yaw) * step,
-              at.yaw + turn * step};
+        at = {at.x + forward * std::cos(at.yaw) * physics_step_s,
+              at.y + forward * std::sin(at.yaw) * physics_step_s, at.yaw + turn * physics_step_s};
     }
     return at;
 }
@@ -35,7 +35,7 @@ TEST_CASE("Free driving without noise ends where the substeps end") {
     const double forward = GENERATE(0.0, 0.5, 1.0, -0.25), turn = GENERATE(0.0, 1e-12, 0.3, -1.0, 6.0);
     const std::uint64_t steps = GENERATE(1, 33, 80);
     const Pose2 from{1, -2, 1.57079};
-    const Pose2 free = free_drive(from, {forward, turn}, steps, step, 0, random, 7),
+    const Pose2 free = free_drive(from, {forward, turn}, steps, physics_step_s, 0, random, 7),
                 walked = stepped(from, {forward, turn}, steps, nullptr, 0);
     CHECK(free.x == Approx(walked.x).margin(1e-13));
     CHECK(free.y == Approx(walked.y).margin(1e-13));
@@ -50,7 +50,7 @@ TEST_CASE("Free driving with noise has the means, deviations and correlations of
     constexpr Eigen::Index samples = 40'000;
     // Means, deviations and correlations of the displacements along and across the middle heading, and of the
     // heading.
-    const double middle = from.yaw + turn * step * static_cast<double>(steps - 1) / 2;
+    const double middle = from.yaw + turn * physics_step_s * static_cast<double>(steps - 1) / 2;
     const auto measure = [&](auto drive) {
         Eigen::ArrayX3d all(samples, 3);
         for (Eigen::Index i = 0; i < samples; ++i) {
@@ -61,7 +61,7 @@ TEST_CASE("Free driving with noise has the means, deviations and correlations of
         return all;
     };
     const Eigen::ArrayX3d free = measure([&](std::uint64_t i) {
-        return free_drive(from, {forward, turn}, steps, step, speed_noise, random, i);
+        return free_drive(from, {forward, turn}, steps, physics_step_s, speed_noise, random, i);
     });
     const Eigen::ArrayX3d walked = measure([&](std::uint64_t i) {
         return stepped(from, {forward, turn}, steps, &other, i * steps);

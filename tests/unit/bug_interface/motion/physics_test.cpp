@@ -7,14 +7,16 @@
 
 #include "core/base/random.h"
 #include "tests/support/catch.h"
+#include "tests/unit/bug_interface/physics_step.h"
 
 using namespace forage::bug;
+using forage::test::physics_step_s;
+using std::numbers::pi;
 using Contacts = Physics::Contacts;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
-constexpr double dt = 0.001, radius = 0.2;
+constexpr double robot_radius = 0.2;
 
 Obstacle box(double x, double y, double yaw, double size_x, double size_y) {
     Obstacle o;
@@ -43,7 +45,7 @@ struct OneRobot {
     std::vector<Obstacle> obstacles;
     Physics physics;
     OneRobot(std::vector<Obstacle> o, Pose2 start, Contacts contacts = Contacts::when_near)
-        : obstacles(std::move(o)), physics(obstacles, std::vector<Body>(1), dt, contacts) {
+        : obstacles(std::move(o)), physics(obstacles, std::vector<Body>(1), physics_step_s, contacts) {
         physics.place(0, start);
     }
     void drive(MotorCommand command, int steps = 1) {
@@ -51,16 +53,16 @@ struct OneRobot {
     }
     double gap() const {
         double least = 1e9;
-        for (const auto& o : obstacles) least = std::min(least, distance(o, physics.pose(0)) - radius);
+        for (const auto& o : obstacles) least = std::min(least, distance(o, physics.pose(0)) - robot_radius);
         return least;
     }
     const Pose2& pose() const { return physics.pose(0); }
 };
 
-const std::vector<Obstacle> room = {box(0, 1.1, 0, 6, 0.2),         box(0, -1.1, 0, 6, 0.2),
-                                    box(1.6, 0, pi / 2, 6, 0.2),    box(-1.6, 0, pi / 2, 6, 0.2),
-                                    box(1.2, 0.7, -pi / 4, 1, 0.2), pillar(-0.5, 0.2, 0.25),
-                                    box(0.6, -0.4, 0.3, 0.2, 0.2)};
+const std::vector<Obstacle> furnished_room = {box(0, 1.1, 0, 6, 0.2),         box(0, -1.1, 0, 6, 0.2),
+                                              box(1.6, 0, pi / 2, 6, 0.2),    box(-1.6, 0, pi / 2, 6, 0.2),
+                                              box(1.2, 0.7, -pi / 4, 1, 0.2), pillar(-0.5, 0.2, 0.25),
+                                              box(0.6, -0.4, 0.3, 0.2, 0.2)};
 
 }  // namespace
 
@@ -68,7 +70,8 @@ TEST_CASE("Far from everything, a robot moves by Euler steps") {
     OneRobot r({box(0, 10, 0, 5, 0.2)}, {0, 0, 0.5});
     double x = 0, y = 0, yaw = 0.5;
     for (int i = 0; i < 1000; ++i)
-        x += 0.8 * std::cos(yaw) * dt, y += 0.8 * std::sin(yaw) * dt, yaw += 0.7 * dt;
+        x += 0.8 * std::cos(yaw) * physics_step_s, y += 0.8 * std::sin(yaw) * physics_step_s,
+            yaw += 0.7 * physics_step_s;
     r.drive({0.8, 0.7}, 1000);
     CHECK(r.pose().x == x);
     CHECK(r.pose().y == y);
@@ -85,7 +88,8 @@ TEST_CASE("The yaw stays in (-pi, pi]") {
 }
 
 TEST_CASE("A step of a disc is that of Bullet, and without contacts it has the same bits") {
-    OneRobot closed_form(room, {0, 0, 0.5}), bullet(room, {0, 0, 0.5}, Contacts::always_bullet);
+    OneRobot closed_form(furnished_room, {0, 0, 0.5}),
+        bullet(furnished_room, {0, 0, 0.5}, Contacts::always_bullet);
     const forage::RandomStream random(3, "drive");
     int touching = 0, farther = 0;
     for (std::uint64_t i = 0; i < 20000; ++i) {
@@ -115,14 +119,14 @@ TEST_CASE("A fast robot does not run into a slow one, whatever their order") {
         const std::size_t slow = slow_first ? 0 : 1, fast = 1 - slow;
         for (const double speed : {8.0, 15.0, 30.0}) {
             for (double apart = 1; apart < 1.3; apart += 0.0137) {
-                Physics p({}, std::vector<Body>(2), dt);
+                Physics p({}, std::vector<Body>(2), physics_step_s);
                 p.place(slow, {apart, 0, 0}), p.place(fast, {0, 0, 0});
                 std::array<MotorCommand, 2> drives{};
                 drives[fast].forward = speed, drives[slow].forward = 0.5;
                 for (int i = 0; i < 100; ++i) {
                     p.step(drives);
                     INFO(speed << " m/s, step " << i);
-                    REQUIRE(p.pose(slow).x - p.pose(fast).x > 2 * radius - 0.001);
+                    REQUIRE(p.pose(slow).x - p.pose(fast).x > 2 * robot_radius - 0.001);
                 }
             }
         }
@@ -143,12 +147,12 @@ TEST_CASE("An object that is hit by a fast robot does not penetrate the next one
     const std::array<Body, 3> bodies = {Body{}, ball, ball};
     for (const double speed : {1.0, 8.0, 30.0})
         for (double gap = 0.0005; gap < 0.06; gap *= 1.3) {
-            Physics p({}, bodies, dt);
+            Physics p({}, bodies, physics_step_s);
             p.place(0, {0, 0, 0}), p.place(1, {0.35, 0, 0}), p.place(2, {0.35 + 2 * ball.radius + gap, 0, 0});
             for (int i = 0; i < 200; ++i) {
                 p.step(std::array<MotorCommand, 3>{{{speed, 0}, {}, {}}});
                 INFO(speed << " m/s, " << gap << " m, step " << i);
-                REQUIRE(p.pose(1).x - p.pose(0).x > radius + ball.radius - 0.001);
+                REQUIRE(p.pose(1).x - p.pose(0).x > robot_radius + ball.radius - 0.001);
                 REQUIRE(p.pose(2).x - p.pose(1).x > 2 * ball.radius - 0.001);
             }
         }
@@ -159,7 +163,7 @@ TEST_CASE("Objects that overlap at rest stay where they are") {
     ball.driven = false, ball.radius = 0.08, ball.mass = 0.01, ball.inertia = 1;
     const std::array<Body, 3> bodies = {Body{}, ball, ball};
     for (const auto when : {Physics::Contacts::when_near, Physics::Contacts::always_bullet}) {
-        Physics p({}, bodies, dt, when);
+        Physics p({}, bodies, physics_step_s, when);
         p.place(0, {5, 0, 0}), p.place(1, {0, 0, 0}), p.place(2, {2 * ball.radius - 0.0007, 0, 0});
         for (int i = 0; i < 100; ++i) p.step(std::array<MotorCommand, 3>{{{0.1, 0.1}, {}, {}}});
         CHECK(p.pose(2).x == 2 * ball.radius - 0.0007);
@@ -174,12 +178,12 @@ TEST_CASE("A robot that is squeezed between two crates and a wall penetrates non
     crate.parts = {{box(0, 0, pi / 4, 0.3, 0.3).outline, 0, 0.1}};
     const std::array<Body, 3> bodies = {Body{}, crate, crate};
     const std::array<Obstacle, 1> wall = {box(0.4, 0, 0, 0.2, 4)};
-    Physics p(wall, bodies, dt);
+    Physics p(wall, bodies, physics_step_s);
     p.place(0, {0, 0, 0}), p.place(1, {-0.1, 0.8, -pi / 2}), p.place(2, {-0.1, -0.8, pi / 2});
     for (int i = 0; i < 1500; ++i) {
         p.step(std::array<MotorCommand, 3>{{{1, 0.5}, {1, 0.1}, {1, -0.2}}});
         Outline round;
-        round.round = true, round.x = p.pose(0).x, round.y = p.pose(0).y, round.radius = radius;
+        round.round = true, round.x = p.pose(0).x, round.y = p.pose(0).y, round.radius = robot_radius;
         REQUIRE(overlap(wall[0].outline, round).depth < 0.001);
         for (const std::size_t c : {1u, 2u})
             REQUIRE(overlap(Transform2(p.pose(c)) * p.parts(c)[0].outline, round).depth < 0.001);
@@ -198,7 +202,7 @@ TEST_CASE("A robot stops at a wall, at the distance of its radius") {
 TEST_CASE("A robot stops at a corner and at a pillar, at the distance of its radius") {
     OneRobot corner({box(1, 0, pi / 4, 0.4, 0.4)}, {0, 0, 0});
     corner.drive({1, 0}, 1500);
-    CHECK(corner.pose().x == Approx(1 - 0.2 * std::sqrt(2.0) - radius).margin(5e-4));
+    CHECK(corner.pose().x == Approx(1 - 0.2 * std::sqrt(2.0) - robot_radius).margin(5e-4));
     OneRobot round({pillar(1, 0, 0.3)}, {0, 0, 0});
     round.drive({1, 0}, 1500);
     CHECK(round.pose().x == Approx(0.5).margin(2e-4));
@@ -216,7 +220,8 @@ TEST_CASE("A robot that meets a wall at 45 degrees slides along it and slowly tu
     // From here on the heading drifts and the robot slows down.
     double x = r.pose().x, yaw = r.pose().yaw;
     for (int i = 0; i < 2000; ++i)
-        x += (std::cos(yaw) - 0.1 * std::sin(yaw)) * dt, yaw += 0.1 * std::sin(yaw) * dt;
+        x += (std::cos(yaw) - 0.1 * std::sin(yaw)) * physics_step_s,
+            yaw += 0.1 * std::sin(yaw) * physics_step_s;
     r.drive({1, 0}, 2000);
     CHECK(r.pose().x == Approx(x).margin(0.005));
     CHECK(r.pose().yaw == Approx(yaw).margin(0.002));
@@ -240,7 +245,7 @@ TEST_CASE("A robot can drive away from a wall") {
 }
 
 TEST_CASE("Random commands in a crowded room never lead through a wall or to infinite numbers") {
-    OneRobot r(room, {0, 0, 0});
+    OneRobot r(furnished_room, {0, 0, 0});
     const forage::RandomStream random(7, "drive");
     double deepest = 0, farthest = 0;
     int touching = 0;
@@ -259,14 +264,14 @@ TEST_CASE("Random commands in a crowded room never lead through a wall or to inf
 
 TEST_CASE("Robots stop each other head-on, and one that stands still is pushed at half speed") {
     std::vector<Body> bodies(2);
-    Physics head_on({}, bodies, dt);
+    Physics head_on({}, bodies, physics_step_s);
     head_on.place(0, {-1, 0, 0});
     head_on.place(1, {1, 0, pi});
     for (int i = 0; i < 2000; ++i) head_on.step(std::array{MotorCommand{1, 0}, MotorCommand{1, 0}});
     CHECK(head_on.pose(0).x == Approx(-0.2).margin(1e-3));
     CHECK(head_on.pose(1).x == Approx(0.2).margin(1e-3));
 
-    Physics push({}, bodies, dt);
+    Physics push({}, bodies, physics_step_s);
     push.place(0, {-1, 0, 0});
     push.place(1, {0, 0, 0});
     for (int i = 0; i < 600; ++i) push.step(std::array{MotorCommand{1, 0}, MotorCommand{0, 0}});
@@ -279,7 +284,7 @@ TEST_CASE("Robots stop each other head-on, and one that stands still is pushed a
 
 TEST_CASE("A crowd of robots in a room does not overlap") {
     constexpr std::size_t n = 6;
-    Physics crowd(room, std::vector<Body>(n), dt);
+    Physics crowd(furnished_room, std::vector<Body>(n), physics_step_s);
     for (std::size_t i = 0; i < n; ++i) crowd.place(i, {-1.2 + 0.45 * static_cast<double>(i), -0.75, pi / 2});
     const forage::RandomStream random(5, "crowd");
     double deepest = 0;
@@ -295,7 +300,7 @@ TEST_CASE("A crowd of robots in a room does not overlap") {
             const Pose2& a = crowd.pose(i);
             for (std::size_t j = 0; j < i; ++j)
                 deepest = std::max(deepest, 0.4 - std::hypot(a.x - crowd.pose(j).x, a.y - crowd.pose(j).y));
-            for (const auto& o : room) deepest = std::max(deepest, radius - distance(o, a));
+            for (const auto& o : furnished_room) deepest = std::max(deepest, robot_radius - distance(o, a));
         }
     }
     INFO("deepest " << deepest);
@@ -303,7 +308,7 @@ TEST_CASE("A crowd of robots in a room does not overlap") {
 }
 
 TEST_CASE("A removed robot touches nothing and does not move") {
-    Physics p({}, std::vector<Body>(2), dt);
+    Physics p({}, std::vector<Body>(2), physics_step_s);
     p.place(0, {-1, 0, 0});
     p.place(1, {0, 0, 0});
     p.remove(1);

@@ -12,12 +12,13 @@
 
 using namespace forage;
 using namespace forage::bug;
+using std::numbers::pi;
+using test::apart;
 using test::description;
 using test::make_world;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
 using Contacts = Physics::Contacts;
 
 /// One of the models of the team arena with another name and pose.
@@ -30,7 +31,7 @@ Model copy_of(const WorldDescription& world, const std::string& name, const std:
     return out;
 }
 
-Model ball(const std::string& name, double x, double y) {
+Model ball_model(const std::string& name, double x, double y) {
     Model model;
     model.name = name;
     Link link;
@@ -56,8 +57,6 @@ struct Both {
     void grip(std::size_t bug, bool close) { strides->grip(bug, close), steps->grip(bug, close); }
     void step() { strides->step(), steps->step(); }
 };
-
-double apart(const Pose2& a, const Pose2& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 /// The value that a share `q` of the values is below.
 double quantile(std::vector<double> values, double q) {
@@ -129,7 +128,7 @@ TEST_CASE("A crowd of robots with grippers and balls moves as in steps of 1 ms",
             world.models.push_back(copy_of(text, "A_1", fmt::format("R{}", i),
                                            {1.3 * std::cos(angle), 1.3 * std::sin(angle), angle + pi}));
             world.models.push_back(
-                ball(fmt::format("Ball{}", i), 0.9 * std::cos(angle), 0.9 * std::sin(angle)));
+                ball_model(fmt::format("Ball{}", i), 0.9 * std::cos(angle), 0.9 * std::sin(angle)));
         }
         Both both(world, run);
         Pose2 at[2][8];

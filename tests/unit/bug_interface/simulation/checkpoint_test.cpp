@@ -11,17 +11,17 @@ using namespace forage::bug;
 
 namespace {
 
-constexpr std::size_t crowd = 7;
-constexpr double room = 1.4;  ///< m, inside; for seven robots of 0.4 m
+constexpr std::size_t crowd_size = 7;
+constexpr double inner_side = 1.4;  ///< m, inside; for seven robots of 0.4 m
 
 std::vector<Obstacle> walls() {
     std::vector<Obstacle> out(5);
     for (std::size_t i = 0; i < 4; ++i) {
         Outline& o = out[i].outline;
-        const double side = i % 2 ? -1 : 1, middle = side * (room / 2 + 0.1);
+        const double side = i % 2 ? -1 : 1, middle = side * (inner_side / 2 + 0.1);
         (i < 2 ? o.x : o.y) = middle;
         o.cos_yaw = 1, o.sin_yaw = 0;
-        o.half_x = i < 2 ? 0.1 : room / 2 + 0.2, o.half_y = i < 2 ? room / 2 + 0.2 : 0.1;
+        o.half_x = i < 2 ? 0.1 : inner_side / 2 + 0.2, o.half_y = i < 2 ? inner_side / 2 + 0.2 : 0.1;
     }
     out[4].outline.round = true, out[4].outline.radius = 0.1;
     return out;
@@ -30,14 +30,14 @@ std::vector<Obstacle> walls() {
 /// Robots that push each other and the walls all the time.
 class Crowd {
   public:
-    Crowd() : physics_(walls(), std::vector<Body>(crowd), 0.001) {
-        for (std::size_t i = 0; i < crowd; ++i)
+    Crowd() : physics_(walls(), std::vector<Body>(crowd_size), 0.001) {
+        for (std::size_t i = 0; i < crowd_size; ++i)
             physics_.place(i, {-0.45 + 0.45 * static_cast<double>(i % 3),
                                -0.45 + 0.45 * static_cast<double>(i / 3), static_cast<double>(i)});
     }
     void step(std::uint64_t t) {
         std::mt19937 chance(static_cast<unsigned>(t / 100));  // the same commands at the same time t
-        std::vector<MotorCommand> drives(crowd);
+        std::vector<MotorCommand> drives(crowd_size);
         for (auto& d : drives) {
             d.forward = static_cast<double>(chance() % 1000) / 500;
             d.turn = static_cast<double>(chance() % 1000) / 100 - 5;

@@ -12,11 +12,11 @@ using namespace forage::test;
 namespace {
 
 /// The text of the basic arena with `element` inserted as the last line before </world>.
-std::string with(const std::string& element) { return edited("  </world>", element + "\n</world>"); }
+std::string world_with(const std::string& element) { return edited("  </world>", element + "\n</world>"); }
 
 /// The diagnostics of the basic arena with `element` inserted. They must be located at its line.
 std::string said_with(const std::string& element) {
-    const std::string text = with(element), line = line_of(text, "</world>");
+    const std::string text = world_with(element), line = line_of(text, "</world>");
     std::string said = diagnostics_of(text);
     const std::string here = std::to_string(std::stoi(line) - 1) + ": ";
     INFO(said);
@@ -24,12 +24,12 @@ std::string said_with(const std::string& element) {
     return said.starts_with(here) ? said.substr(here.size()) : said;
 }
 
-std::string model(const std::string& inside, bool fixed = true) {
+std::string model_element(const std::string& inside, bool fixed = true) {
     return std::string("<model name='m'>") + (fixed ? "<static>1</static>" : "") + inside + "</model>";
 }
 
 std::string sphere(const std::string& pose, bool fixed = false) {
-    return model(
+    return model_element(
         "<pose>" + pose +
             "</pose><link name='l'><collision name='c'><geometry><sphere><radius>0.1</radius></sphere>"
             "</geometry></collision></link>",
@@ -38,7 +38,7 @@ std::string sphere(const std::string& pose, bool fixed = false) {
 
 /// A second robot, with this in its body, beside the first one.
 std::string robot(const std::string& body, const std::string& rest = {}) {
-    return model(
+    return model_element(
         "<pose>1 -1 0 0 0 0</pose><link name='bug'><pose>0 0 0.1 0 0 0</pose><collision name='c'>"
         "<geometry><cylinder><radius>0.2</radius><length>0.2</length></cylinder></geometry></collision>" +
             body + "</link><plugin name='v' filename='libvel_plugin.so'/>" + rest,
@@ -89,8 +89,8 @@ TEST_CASE("Models at positions that are most likely a mistake give a warning at 
     CHECK(diagnostics_of(outside) ==
           "55: warning: robot 'Bug' starts outside the bounds and is reset at once | the bounds are x -2.5 "
           "to 2.5, y -2.5 to 2.5\n");
-    const std::string twice =
-        with("<include><name>B</name><uri>model://forage_bug</uri><pose>0 -1.7 0 0 0 0</pose></include>");
+    const std::string twice = world_with(
+        "<include><name>B</name><uri>model://forage_bug</uri><pose>0 -1.7 0 0 0 0</pose></include>");
     CHECK(diagnostics_of(twice) ==
           "55: warning: robot 'Bug' starts inside another object and may be stuck | change its <pose>\n"
           "90: warning: robot 'B' starts inside another object and may be stuck | change its <pose>\n");
@@ -98,7 +98,7 @@ TEST_CASE("Models at positions that are most likely a mistake give a warning at 
 
 TEST_CASE("Movable objects that overlap each other give no warning") {
     CHECK(diagnostics_of(
-              with(sphere("1 0 0.1 0 0 0") + "<model name='n'>" + sphere("1.1 0 0.1 0 0 0").substr(16)))
+              world_with(sphere("1 0 0.1 0 0 0") + "<model name='n'>" + sphere("1.1 0 0.1 0 0 0").substr(16)))
               .empty());
 }
 
@@ -154,7 +154,7 @@ TEST_CASE("Joints that do not turn, or turn without a limit, give a warning") {
     CHECK(said_with(joint("revolute",
                           "<axis><xyz>0 0 1</xyz><limit><lower>1</lower><upper>-1</upper></limit></axis>")) ==
           "error: joint 'j' has its lower limit above the upper one | they are 1 and -1 rad\n");
-    CHECK(diagnostics_of(with(joint("fixed", ""))).empty());
+    CHECK(diagnostics_of(world_with(joint("fixed", ""))).empty());
 }
 
 TEST_CASE("A game with inconsistent rules gives a warning") {

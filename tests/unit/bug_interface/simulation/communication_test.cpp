@@ -31,14 +31,14 @@ struct Pair {
     }
 };
 
-const double range = 10 * std::sqrt(2.0);
+const double communication_range = 10 * std::sqrt(2.0);
 
 }  // namespace
 
 TEST_CASE("A message is received from 0.1 to 14.14 m, with linear attenuation") {
     for (const double d : {0.11, 1.0, 7.0, 10.0, 14.0, 14.142}) {
         INFO(d);
-        CHECK(Pair().received(0.6, d) == Approx(0.6 * (range - d) / range));
+        CHECK(Pair().received(0.6, d) == Approx(0.6 * (communication_range - d) / communication_range));
     }
     for (const double d : {0.0, 0.05, 0.0999, 14.1422, 20.0}) CHECK(Pair().received(0.6, d) == 0);
 }

@@ -9,16 +9,17 @@
 #include <vector>
 
 #include "tests/support/catch.h"
+#include "tests/unit/bug_interface/physics_step.h"
 
 using namespace forage;
 using namespace forage::bug;
+using test::physics_step_s;
 
 namespace {
 
-constexpr double step = 0.001;
 constexpr std::array<Pose2, 2> far_homes = {Pose2{-100, 100, 0}, Pose2{100, -100, 0}};
 
-Body ball() {
+Body resource_body() {
     Body b;
     b.radius = 0.08, b.mass = 0.01, b.driven = false, b.deceleration = 0.98;
     return b;
@@ -32,7 +33,7 @@ struct Table {
 
     Table(int balls, std::optional<GameRules> rules, std::array<Pose2, 2> homes = far_homes,
           std::uint64_t seed = 1)
-        : physics({}, std::vector<Body>(static_cast<std::size_t>(balls), ball()), step),
+        : physics({}, std::vector<Body>(static_cast<std::size_t>(balls), resource_body()), physics_step_s),
           game(std::move(rules), homes, resources(balls), seed) {
         for (int i = 0; i < balls; ++i) physics.place(static_cast<std::size_t>(i), start(i));
         game.begin(physics);
@@ -44,7 +45,7 @@ struct Table {
         return out;
     }
     void run(int steps) {
-        for (; steps > 0; --steps) game.advance(physics, time += step, step, 1);
+        for (; steps > 0; --steps) game.advance(physics, time += physics_step_s, physics_step_s, 1);
     }
     /// Simulates seconds in steps of 1 s, which is fast; only for tests without contacts and homes.
     void seconds(int n) {
@@ -129,14 +130,15 @@ TEST_CASE("A resource that a robot holds does not age") {
     // is just enough.
     GameRules rules = rules_of({{5, 0, 1}});
     rules.most = 1;
-    Physics physics({}, std::vector<Body>{Body{}, Body{}, ball()}, step);
+    Physics physics({}, std::vector<Body>{Body{}, Body{}, resource_body()}, physics_step_s);
     physics.place(0, {0, 0, 0}), physics.place(1, {0.56, 0, 3.14159});
     Game game(rules, far_homes, {{2, {9, 9, 0}}}, 1);
     game.begin(physics);
     std::array<MotorCommand, 3> drives{};
     double time = 0;
     const auto run = [&](int steps) {
-        for (; steps > 0; --steps) physics.step(drives), game.advance(physics, time += step, step, 1);
+        for (; steps > 0; --steps)
+            physics.step(drives), game.advance(physics, time += physics_step_s, physics_step_s, 1);
     };
     run(1500);
     REQUIRE_FALSE(game.resources()[0].removed);

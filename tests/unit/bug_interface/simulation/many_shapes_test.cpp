@@ -12,9 +12,10 @@ using test::description;
 
 namespace {
 
-constexpr int many = 40;
+constexpr int piece_count = 40;
 
-Collision box(double x, double y, double low, double high, double side_x, double side_y, double yaw = 0) {
+Collision box_collision(double x, double y, double low, double high, double side_x, double side_y,
+                        double yaw = 0) {
     Collision out;
     out.name = "c";
     out.pose.translation() = Eigen::Vector3d(x, y, (low + high) / 2);
@@ -34,7 +35,7 @@ Model model_of(const std::string& name, bool is_static, std::vector<Collision> s
 }
 
 /// The team arena with its first robot at the origin and with `models` added.
-WorldDescription with(std::vector<Model> models) {
+WorldDescription team_arena_with(std::vector<Model> models) {
     WorldDescription text = description("team_arena");
     text.game.reset();
     std::erase_if(text.models, [](const Model& m) { return m.name != "A_1"; });
@@ -60,14 +61,15 @@ TEST_CASE(
     "A wall of 40 pieces with 40 heights stops a robot everywhere, and is sensed where it is high enough") {
     // A ring of radius 1.2 m around the robot; piece i is 0.11 m high, and 0.005 m more than the one before.
     std::vector<Collision> pieces;
-    for (int i = 0; i < many; ++i) {
-        const double at = 2 * std::numbers::pi * (i + 0.5) / many;
-        pieces.push_back(box(1.2 * std::cos(at), 1.2 * std::sin(at), 0, 0.11 + 0.005 * i, 0.1, 0.2, at));
+    for (int i = 0; i < piece_count; ++i) {
+        const double at = 2 * std::numbers::pi * (i + 0.5) / piece_count;
+        pieces.push_back(
+            box_collision(1.2 * std::cos(at), 1.2 * std::sin(at), 0, 0.11 + 0.005 * i, 0.1, 0.2, at));
     }
-    const WorldDescription text = with({model_of("Ring", true, pieces)});
-    for (int i = 0; i < many; ++i) {
+    const WorldDescription text = team_arena_with({model_of("Ring", true, pieces)});
+    for (int i = 0; i < piece_count; ++i) {
         WorldDescription turned = text;
-        const double at = 2 * std::numbers::pi * (i + 0.5) / many;
+        const double at = 2 * std::numbers::pi * (i + 0.5) / piece_count;
         turned.models.front().pose = in_space({0, 0, at});
         turned.models.front().models.clear();  // the gripper
         turned.models.front().hinges.clear();
@@ -76,7 +78,7 @@ TEST_CASE(
         // The two rays nearest to straight ahead end 5.5 degrees aside, on this piece or the next one.
         const bool high = 0.11 + 0.005 * (i - 1) > 0.176, low = 0.11 + 0.005 * (i + 1) < 0.174;
         const double seen = world->snapshot(0).proximity[15];
-        if (high && i + 1 < many) CHECK(seen == Approx((2 - 1.15) / 2).margin(0.01));
+        if (high && i + 1 < piece_count) CHECK(seen == Approx((2 - 1.15) / 2).margin(0.01));
         if (low && i > 0) CHECK(seen == 0);
         drive(*world, {1, 0}, 50);
         CHECK(std::hypot(world->pose(0).x, world->pose(0).y) == Approx(1.15 - 0.2).margin(0.002));
@@ -85,15 +87,16 @@ TEST_CASE(
 
 TEST_CASE("A crate of 40 shapes is pushed and sensed like a crate of one shape") {
     std::vector<Collision> slices;
-    for (int i = 0; i < many; ++i)
-        slices.push_back(box(0, -0.2 + 0.4 * (i + 0.5) / many, 0, 0.25, 0.3, 0.4 / many));
+    for (int i = 0; i < piece_count; ++i)
+        slices.push_back(
+            box_collision(0, -0.2 + 0.4 * (i + 0.5) / piece_count, 0, 0.25, 0.3, 0.4 / piece_count));
     const auto crate = [&](std::vector<Collision> shapes) {
         Model m = model_of("Crate", false, std::move(shapes));
         m.pose = in_space({0.8, 0.05, 0});
         return m;
     };
-    const auto sliced = made(with({crate(slices)})),
-               whole = made(with({crate({box(0, 0, 0, 0.25, 0.3, 0.4)})}));
+    const auto sliced = made(team_arena_with({crate(slices)})),
+               whole = made(team_arena_with({crate({box_collision(0, 0, 0, 0.25, 0.3, 0.4)})}));
     REQUIRE(sliced->movable_objects() == 1);
     for (int part = 0; part < 6; ++part) {
         CHECK(sliced->snapshot(0).proximity == whole->snapshot(0).proximity);
@@ -116,7 +119,7 @@ TEST_CASE("A gripper whose fingers have 40 shapes each closes and holds like one
         ball.links.front().mass = 0.01, ball.links.front().inertia_z = 1;
         ball.pose = in_space({0.33, 0.01, 0});
     }
-    const WorldDescription plain = with({ball});
+    const WorldDescription plain = team_arena_with({ball});
     WorldDescription sliced = plain;
     std::size_t shapes = 0;
     const auto slice = [&](auto&& self, Model& model) -> void {
@@ -125,17 +128,17 @@ TEST_CASE("A gripper whose fingers have 40 shapes each closes and holds like one
             REQUIRE(link.collisions.size() == 1);
             const Collision whole = link.collisions.front();
             link.collisions.clear();
-            for (int i = 0; i < many; ++i) {
+            for (int i = 0; i < piece_count; ++i) {
                 Collision c = whole;
-                c.shape.size.x() /= many;
-                c.pose.translation().x() += whole.shape.size.x() * ((i + 0.5) / many - 0.5);
+                c.shape.size.x() /= piece_count;
+                c.pose.translation().x() += whole.shape.size.x() * ((i + 0.5) / piece_count - 0.5);
                 link.collisions.push_back(c), ++shapes;
             }
         }
         for (Model& inner : model.models) self(self, inner);
     };
     slice(slice, sliced.models.front());
-    REQUIRE(shapes == 4 * many);
+    REQUIRE(shapes == 4 * piece_count);
     const auto a = made(plain), b = made(sliced);
     for (World* world : {a.get(), b.get()}) {
         world->grip(0, false);
@@ -154,11 +157,11 @@ TEST_CASE("A gripper whose fingers have 40 shapes each closes and holds like one
 }
 
 TEST_CASE("A robot with too many heights gives one error, at the shape") {
-    WorldDescription text = with({});
+    WorldDescription text = team_arena_with({});
     Link& body = *std::find_if(text.models.front().links.begin(), text.models.front().links.end(),
                                [](const Link& l) { return l.name == "bug"; });
-    for (int i = 0; i < many; ++i) {
-        body.collisions.push_back(box(0.15, 0, 0, 0.05 + 0.002 * i, 0.05, 0.05));
+    for (int i = 0; i < piece_count; ++i) {
+        body.collisions.push_back(box_collision(0.15, 0, 0, 0.05 + 0.002 * i, 0.05, 0.05));
         body.collisions.back().where = {nullptr, 100 + i, 3};
     }
     Diagnostics diagnostics;

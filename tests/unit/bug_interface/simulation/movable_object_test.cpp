@@ -6,16 +6,18 @@
 
 #include "bug_interface/motion/overlap.h"
 #include "core/base/random.h"
+#include "tests/unit/bug_interface/physics_step.h"
 #include "tests/unit/bug_interface/worlds.h"
 
 using namespace forage;
 using namespace forage::bug;
+using std::numbers::pi;
+using test::apart;
 using test::description;
 using test::make_world;
+using test::physics_step_s;
 
 namespace {
-
-constexpr double pi = std::numbers::pi, dt = 0.001;
 
 Body ball(double radius = 0.08, double mass = 0.01) {
     Body b;
@@ -38,8 +40,6 @@ Outline wall(double x, double y, double size_x, double size_y) {
     o.x = x, o.y = y, o.half_x = size_x / 2, o.half_y = size_y / 2;
     return o;
 }
-
-double apart(const Pose2& a, const Pose2& b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 /// The team arena with a ball in front of the robot A_1, far from all walls.
 struct Court {
@@ -79,7 +79,7 @@ struct Court {
 }  // namespace
 
 TEST_CASE("A pushed ball moves ahead of the robot, and slides until friction stops it when the robot stops") {
-    Physics p({}, std::vector<Body>{Body{}, ball()}, dt);
+    Physics p({}, std::vector<Body>{Body{}, ball()}, physics_step_s);
     p.place(0, {0, 0, 0});
     p.place(1, {0.5, 0, 0});
     for (int i = 0; i < 1000; ++i) p.step(std::array{MotorCommand{1, 0}, MotorCommand{}});
@@ -94,7 +94,7 @@ TEST_CASE("A pushed ball moves ahead of the robot, and slides until friction sto
 TEST_CASE("A ball between a robot and a wall stops the robot") {
     std::vector<Obstacle> walls(1);
     walls[0].outline = wall(1.1, 0, 0.2, 4);
-    Physics p(walls, std::vector<Body>{Body{}, ball()}, dt);
+    Physics p(walls, std::vector<Body>{Body{}, ball()}, physics_step_s);
     p.place(0, {0, 0, 0});
     p.place(1, {0.6, 0, 0});
     double deepest = 0;
@@ -107,7 +107,7 @@ TEST_CASE("A ball between a robot and a wall stops the robot") {
 }
 
 TEST_CASE("A crate that is pushed off its centre turns") {
-    Physics p({}, std::vector<Body>{Body{}, crate(0.3, 0.5)}, dt);
+    Physics p({}, std::vector<Body>{Body{}, crate(0.3, 0.5)}, physics_step_s);
     p.place(0, {0, 0.1, 0});
     p.place(1, {0.6, 0, 0});
     for (int i = 0; i < 1200; ++i) p.step(std::array{MotorCommand{0.5, 0}, MotorCommand{}});
@@ -121,7 +121,7 @@ TEST_CASE("Shapes touch only if they share heights") {
     beam[0].outline = wall(1, 0, 0.2, 4), beam[0].layers = 2;
     Body low, high;
     high.layer = 1;
-    Physics p(beam, std::vector<Body>{low, high}, dt, Physics::Contacts::when_near, {1, 2});
+    Physics p(beam, std::vector<Body>{low, high}, physics_step_s, Physics::Contacts::when_near, {1, 2});
     p.place(0, {0, 0, 0}), p.place(1, {0, 0, 0});
     for (int i = 0; i < 2000; ++i) p.step(std::array{MotorCommand{1, 0}, MotorCommand{1, 0}});
     CHECK(p.pose(0).x == Approx(2));
@@ -137,7 +137,7 @@ TEST_CASE(
     walls[2].outline = wall(2.1, 0, 0.2, 5), walls[3].outline = wall(-2.1, 0, 0.2, 5);
     walls[4].outline.round = true, walls[4].outline.radius = 0.4;
     const std::vector<Body> bodies = {Body{}, Body{}, ball(), ball(), ball(0.15, 0.5), crate(0.3, 0.5)};
-    Physics p(walls, bodies, dt);
+    Physics p(walls, bodies, physics_step_s);
     const std::array<Pose2, 6> places = {Pose2{-1, -1, 0}, {1, 1, 2},    {-1, 1, 0},
                                          {1, -1, 0},       {-1.4, 0, 0}, {1.4, 0, 0}};
     for (std::size_t i = 0; i < places.size(); ++i) p.place(i, places[i]);

@@ -7,13 +7,13 @@ using namespace forage::test;
 namespace {
 
 /// Writes `value` in each update; `size` is read at start, and 13 is refused.
-struct Say {
+struct SizedSay {
     double value = 1;
     int size = 2;
-    static void describe(ModuleSpec<Say>& s) {
+    static void describe(ModuleSpec<SizedSay>& s) {
         s.name("say", "Say").any_ports();
-        s.param("value", &Say::value);
-        s.param("size", &Say::size).at_start();
+        s.param("value", &SizedSay::value);
+        s.param("size", &SizedSay::size).at_start();
     }
     void check(const ModulePorts&, Diagnostics& diagnostics) const {
         if (value == 13) diagnostics.error(at_parameter("value"), "13 is unlucky", "take 14");
@@ -27,7 +27,7 @@ struct Small {
     Registry types = registry();
     std::string process, b, c;
     explicit Small(const std::string& synapse = "synapseFixedWeight") {
-        types.add(module_type<Say>());
+        types.add(module_type<SizedSay>());
         process = model::add_process(system, "P");
         const auto a = model::add_group(system, process, "A", 2, 1, "one");
         b = model::add_group(system, process, "B", 2, 1, "neuronLinearThreshold");

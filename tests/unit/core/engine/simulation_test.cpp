@@ -13,8 +13,10 @@ using namespace forage::test;
 
 namespace {
 
-struct Failing {
-    static void describe(NeuronSpec<Failing>& s) { s.name("failing", "Failing").output("act", "Activity"); }
+struct FailingNeuron {
+    static void describe(NeuronSpec<FailingNeuron>& s) {
+        s.name("failing", "Failing").output("act", "Activity");
+    }
     void update(NeuronColumns& c) const {
         if (c.cycle() == 3) throw std::runtime_error("out of luck");
     }
@@ -410,7 +412,7 @@ TEST_CASE("An exception in an update names the type, the group and the cycle") {
     const auto p = model::add_process(s, "Brain");
     model::add_group(s, p, "Weak", 3, 3, "failing");
     Registry types = registry();
-    types.add(neuron_type<Failing>());
+    types.add(neuron_type<FailingNeuron>());
     auto simulation = run(s, types);
     for (int t = 0; t < 3; ++t) simulation.step();
     CHECK_THROWS_WITH(simulation.step(), "failing of group 'Brain/Weak' failed in cycle 3: out of luck");

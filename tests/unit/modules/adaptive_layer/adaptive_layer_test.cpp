@@ -29,7 +29,7 @@ ArrayXd cells(Index size, std::initializer_list<Index> active) {
     return out;
 }
 
-const ArrayXd none = ArrayXd::Zero(responses);
+const ArrayXd no_response = ArrayXd::Zero(responses);
 
 bool is_single(const MatrixXd& w) { return w == w.cast<float>().cast<double>(); }
 
@@ -53,7 +53,7 @@ TEST_CASE(
     auto l = layer();
     const MatrixXd w = l.weights();
     const ArrayXd x = ArrayXd::LinSpaced(stimuli, -1, 2);
-    l.update(x, none, {});
+    l.update(x, no_response, {});
     CHECK(l.response().matrix().isApprox(w.transpose() * x.matrix()));
     CHECK(l.prototype().matrix().isApprox(w * (w.transpose() * x.matrix())));
 }
@@ -95,7 +95,7 @@ TEST_CASE("With a learning rate of 0, the layer responds and updates the discrep
 TEST_CASE("With perceptual learning, a stimulus that is repeated becomes its own prototype") {
     auto l = layer();
     const ArrayXd x = cells(stimuli, {0, 2});
-    for (int i = 0; i < 2000; ++i) l.update(x, none, {0.02, -1, 0, 0.01});
+    for (int i = 0; i < 2000; ++i) l.update(x, no_response, {0.02, -1, 0, 0.01});
     CHECK((l.prototype() - x).abs().maxCoeff() < 1e-3);
     CHECK(l.discrepancy() < 0.01);
 }
@@ -106,10 +106,10 @@ TEST_CASE("With behavioural learning, stimuli evoke the responses that occurred 
         const Index which = i % 2;
         l.update(cells(stimuli, {which}), cells(responses, {2 - which}), {0.005, 0.97, 6, 0.01});
     }
-    l.update(cells(stimuli, {0}), none, {0, 0, 0, 0});
+    l.update(cells(stimuli, {0}), no_response, {0, 0, 0, 0});
     CHECK(l.response()[2] > 0.5);
     CHECK(std::abs(l.response()[0]) < 0.1);
-    l.update(cells(stimuli, {1}), none, {0, 0, 0, 0});
+    l.update(cells(stimuli, {1}), no_response, {0, 0, 0, 0});
     CHECK(l.response()[1] > 0.5);
 }
 
@@ -121,10 +121,10 @@ TEST_CASE(
     MatrixXd w = MatrixXd::Constant(stimuli, responses, 0.1);
     w(0, 0) = 0.3;
     for (auto* l : {&slow, &fast, &frozen, &strong}) l->set_weights(w);
-    slow.update(x, none, {0, 0, 0, 0.25});
-    fast.update(x, none, {0, 0, 0, 1});
-    frozen.update(x, none, {0, 0, 0, 0});
-    strong.update(8 * x, none, {0, 0, 0, 1});
+    slow.update(x, no_response, {0, 0, 0, 0.25});
+    fast.update(x, no_response, {0, 0, 0, 1});
+    frozen.update(x, no_response, {0, 0, 0, 0});
+    strong.update(8 * x, no_response, {0, 0, 0, 1});
     CHECK(fast.discrepancy() > 0);
     CHECK(fast.discrepancy() < 1);
     CHECK(slow.discrepancy() == Approx(0.75 + 0.25 * fast.discrepancy()));
@@ -135,11 +135,11 @@ TEST_CASE(
 TEST_CASE("The discrepancy is constant while the stimulus or the prototype is at most 1e-5") {
     auto l = layer();
     l.set_weights(MatrixXd::Constant(stimuli, responses, 1));
-    l.update(cells(stimuli, {1}) * 1e-5, none, {0, 0, 0, 1});
+    l.update(cells(stimuli, {1}) * 1e-5, no_response, {0, 0, 0, 1});
     CHECK(l.discrepancy() == 1);
-    l.update(cells(stimuli, {1}) * -3, none, {0, 0, 0, 1});
+    l.update(cells(stimuli, {1}) * -3, no_response, {0, 0, 0, 1});
     CHECK(l.discrepancy() == 1);
-    l.update(cells(stimuli, {1}) * 1.1e-5, none, {0, 0, 0, 1});
+    l.update(cells(stimuli, {1}) * 1.1e-5, no_response, {0, 0, 0, 1});
     CHECK(l.discrepancy() < 1);
 }
 
@@ -155,7 +155,7 @@ TEST_CASE("Infinite weights propagate, also without a stimulus, as in the origin
     MatrixXd w = MatrixXd::Zero(stimuli, responses);
     w(2, 1) = std::numeric_limits<double>::infinity();
     l.set_weights(w);
-    l.update(ArrayXd::Zero(stimuli), none, {0.1, 0, 0, 0.1});
+    l.update(ArrayXd::Zero(stimuli), no_response, {0.1, 0, 0, 0.1});
     CHECK(std::isnan(l.response()[1]));
 }
 

@@ -13,8 +13,8 @@ using adaptive::AdaptiveLayerModule;
 
 namespace {
 
-struct Bench : ModuleBench {
-    Bench() : ModuleBench(module_type<AdaptiveLayerModule>()) {}
+struct AdaptiveBench : ModuleBench {
+    AdaptiveBench() : ModuleBench(module_type<AdaptiveLayerModule>()) {}
 };
 
 /// CS 2 x 3, UR 4 x 1.
@@ -31,12 +31,6 @@ void bind(ModuleBench& b, bool display = true, int discrepancies = 1) {
     b.seed(1);
 }
 
-std::string only_problem(ModuleBench& b) {
-    const auto all = b.problems();
-    REQUIRE(all.size() == 1);
-    return all[0].message + " | " + all[0].hint + " | " + all[0].port + all[0].parameter;
-}
-
 std::string temporary() {
     return (std::filesystem::temp_directory_path() / ("forage_al_" + std::to_string(std::random_device{}())))
         .string();
@@ -45,7 +39,7 @@ std::string temporary() {
 }  // namespace
 
 TEST_CASE("moduleAL shows its weights as one picture of the stimulus per response, side by side") {
-    Bench b;
+    AdaptiveBench b;
     bind(b);
     CHECK(b.problems().empty());
     b.start();
@@ -57,7 +51,7 @@ TEST_CASE("moduleAL shows its weights as one picture of the stimulus per respons
 }
 
 TEST_CASE("moduleAL writes only the first cell of the discrepancy, and works without a display") {
-    Bench b;
+    AdaptiveBench b;
     bind(b, false, 4);
     CHECK_THAT(only_problem(b), ContainsSubstring("'descripancy' needs 1 cell; 'P/descripancy' is 4 x 1") &&
                                     ContainsSubstring("--lenient accepts it"));
@@ -69,7 +63,7 @@ TEST_CASE("moduleAL writes only the first cell of the discrepancy, and works wit
 
 TEST_CASE(
     "moduleAL begins with other weights for another seed, and with the same ones when it is started again") {
-    Bench b;
+    AdaptiveBench b;
     bind(b);
     const auto first_weights = [&](std::uint64_t seed) {
         b.seed(seed).start();
@@ -83,7 +77,7 @@ TEST_CASE(
 TEST_CASE("moduleAL reads its file at the end of an update and displays it in the next") {
     const std::string path = temporary();
     std::ofstream(path) << "1, 1, 1, 1, 1, 1, 2, 2, 2, 2, 2, 2, 3, 3, 3, 3, 3, 3, 4, 4, 4, 4, 4, 4";
-    Bench b;
+    AdaptiveBench b;
     bind(b);
     b.set("File Name", path).set("read", "true");
     CHECK(b.problems().empty());
@@ -99,7 +93,7 @@ TEST_CASE("moduleAL reads its file at the end of an update and displays it in th
 
 TEST_CASE("moduleAL writes its file once per request") {
     const std::string path = temporary();
-    Bench b;
+    AdaptiveBench b;
     bind(b);
     b.set("File Name", path).set("write", "true");
     b.start();
@@ -112,7 +106,7 @@ TEST_CASE("moduleAL writes its file once per request") {
 }
 
 TEST_CASE("moduleAL reports a missing file before the run, or stops") {
-    Bench b;
+    AdaptiveBench b;
     bind(b);
     b.set("read", "true");
     CHECK_THAT(only_problem(b), ContainsSubstring("'File Name' is empty"));
@@ -125,11 +119,11 @@ TEST_CASE("moduleAL reports a missing file before the run, or stops") {
 }
 
 TEST_CASE("moduleAL reports groups of the wrong size and the required size") {
-    const auto bound = [](Bench& b, int proto_w, int proto_h, int display_w, int out_w) {
+    const auto bound = [](AdaptiveBench& b, int proto_w, int proto_h, int display_w, int out_w) {
         b.in("input", 2, 3).in("condition", 4, 1).out("prototype", proto_w, proto_h).out("output", out_w, 1);
         b.out("descripancy", 1, 1).out("weight display", display_w, 3);
     };
-    Bench transposed, narrow, short_output, all;
+    AdaptiveBench transposed, narrow, short_output, all;
     bound(transposed, 3, 2, 8, 4);
     CHECK_THAT(
         only_problem(transposed),
@@ -143,7 +137,7 @@ TEST_CASE("moduleAL reports groups of the wrong size and the required size") {
     CHECK_THAT(only_problem(short_output), ContainsSubstring("make the group 4 x 1"));
     bound(all, 1, 1, 1, 1);
     CHECK(all.problems().size() == 3);
-    Bench sparse;
+    AdaptiveBench sparse;
     sparse.bind("input", false, 4, 4, 3).in("condition", 4, 1).out("prototype", 2, 3).out("output", 4, 1);
     sparse.out("descripancy", 1, 1).out("weight display", 8, 3);
     CHECK_THAT(only_problem(sparse), ContainsSubstring("a full rectangle"));

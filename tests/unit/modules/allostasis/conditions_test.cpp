@@ -14,7 +14,7 @@ using namespace forage::allostasis;
 
 namespace {
 
-constexpr double wall = 1.75, body = 0.05, cycle = 0.04, degree = std::numbers::pi / 180;
+constexpr double wall_m = 1.75, body_m = 0.05, cycle_s = 0.04, degree = std::numbers::pi / 180;
 constexpr double angles[8] = {-17, -49, -90, -150, 150, 90, 49, 17};  // of the range sensors, degrees
 
 /// A robot with two wheels, in the original's metres.
@@ -23,15 +23,15 @@ struct Body {
     double range(int sensor) const {
         const double c = std::cos(heading + angles[sensor] * degree),
                      s = std::sin(heading + angles[sensor] * degree);
-        const double along_x = (c > 0 ? wall - x : wall + x) / std::max(std::abs(c), 1e-9);
-        const double along_y = (s > 0 ? wall - y : wall + y) / std::max(std::abs(s), 1e-9);
-        return std::clamp(std::min(along_x, along_y) - body, 0.0, 0.3);
+        const double along_x = (c > 0 ? wall_m - x : wall_m + x) / std::max(std::abs(c), 1e-9);
+        const double along_y = (s > 0 ? wall_m - y : wall_m + y) / std::max(std::abs(s), 1e-9);
+        return std::clamp(std::min(along_x, along_y) - body_m, 0.0, 0.3);
     }
     void move(const Wheels& w) {
         const double v = 0.01 * (w.right + w.left);
-        heading += 0.3846 * (w.right - w.left) * cycle;
-        x = std::clamp(x + v * std::cos(heading) * cycle, body - wall, wall - body);
-        y = std::clamp(y + v * std::sin(heading) * cycle, body - wall, wall - body);
+        heading += 0.3846 * (w.right - w.left) * cycle_s;
+        x = std::clamp(x + v * std::cos(heading) * cycle_s, body_m - wall_m, wall_m - body_m);
+        y = std::clamp(y + v * std::sin(heading) * cycle_s, body_m - wall_m, wall_m - body_m);
     }
 };
 

@@ -12,8 +12,8 @@ using allostasis::AllostasisModule;
 
 namespace {
 
-struct Bench : ModuleBench {
-    Bench() : ModuleBench(module_type<AllostasisModule>()) {
+struct AllostasisBench : ModuleBench {
+    AllostasisBench() : ModuleBench(module_type<AllostasisModule>()) {
         in("gps", 3, 1).in("mate", 3, 1).in("predator", 3, 1).in("proximity", 32, 1);
         out("needs", 5, 1).out("forces", 5, 1).out("views", 4, 5).out("motor", 41, 41).out("time", 2, 1);
         out("errors", 5, 1).out("balance", 3, 1);
@@ -38,7 +38,7 @@ struct Bench : ModuleBench {
 }  // namespace
 
 TEST_CASE("Needs fall with time, and recover at their resource") {
-    Bench b;
+    AllostasisBench b;
     REQUIRE(b.problems().empty());
     b.seed(1).start();
     b.at(0, 0, 0);
@@ -58,7 +58,7 @@ TEST_CASE("Needs fall with time, and recover at their resource") {
 
 TEST_CASE("The robot turns towards what it needs, away from the predator, and from a wall") {
     // Half-way to the food in the north-west, looking south-west: it lies on the right.
-    Bench b;
+    AllostasisBench b;
     b.seed(2).set("Energy Priority", "10");
     b.start();
     const auto mean_column = [&](int cycles) {
@@ -78,7 +78,7 @@ TEST_CASE("The robot turns towards what it needs, away from the predator, and fr
 }
 
 TEST_CASE("A moduleAllostasis that is written and read back continues with the same bits") {
-    const auto drive = [](Bench& b, int cycles) {
+    const auto drive = [](AllostasisBench& b, int cycles) {
         std::vector<double> seen;
         for (int i = 0; i < cycles; ++i) {
             b.at(0.01 * (i % 90), -0.3, 0.1 * i);
@@ -88,7 +88,7 @@ TEST_CASE("A moduleAllostasis that is written and read back continues with the s
         }
         return seen;
     };
-    Bench one, two;
+    AllostasisBench one, two;
     for (auto* b : {&one, &two}) b->seed(3).start();
     drive(one, 200);
     for (int i = 0; i < 200; ++i) two.at(0, 0, 0), two.update();
@@ -102,7 +102,7 @@ TEST_CASE("A moduleAllostasis that is written and read back continues with the s
 }
 
 TEST_CASE("Errors and balance follow the needs") {
-    Bench b;
+    AllostasisBench b;
     b.seed(4).start();
     b.at(0.5, 0.5, 1);
     for (int i = 0; i < 50; ++i) b.update();
@@ -114,7 +114,7 @@ TEST_CASE("Errors and balance follow the needs") {
 }
 
 TEST_CASE("Views are taken at intervals, and used when they are old enough") {
-    Bench b;
+    AllostasisBench b;
     b.seed(5).set("View Interval", "1").set("View Delay", "0.6").start();
     const auto seen = [&] { return b.outputs[2].segment(8, 4).mean(); };  // of the food
     b.at(-1.15, 1.05, 0);                                                 // at the food
@@ -131,7 +131,7 @@ TEST_CASE("Views are taken at intervals, and used when they are old enough") {
 
 TEST_CASE("Without the offset, the food lies at its object") {
     const auto seen_at_the_object = [](const char* offset) {
-        Bench b;
+        AllostasisBench b;
         b.set("Field Offset", offset).start();
         b.at(-1.1, 1.1, 0);
         b.update();
@@ -141,7 +141,7 @@ TEST_CASE("Without the offset, the food lies at its object") {
 }
 
 TEST_CASE("moduleAllostasis reports times that are not possible") {
-    Bench b;
+    AllostasisBench b;
     b.set("Cycle", "0");
     const auto all = b.problems();
     REQUIRE(all.size() == 1);

@@ -14,8 +14,8 @@ namespace {
 
 const std::vector<std::string> displays{"empty", "collector", "distance", "selected", "trigger"};
 
-struct Bench : ModuleBench {
-    Bench(const std::string& height, const std::string& width)
+struct ContextualBench : ModuleBench {
+    ContextualBench(const std::string& height, const std::string& width)
         : ModuleBench(module_type<ContextualLayerModule>()) {
         set("Memory Height", height)
             .set("Memory Width", width)
@@ -26,16 +26,10 @@ struct Bench : ModuleBench {
     }
 };
 
-std::string only_problem(ModuleBench& b) {
-    const auto all = b.problems();
-    REQUIRE(all.size() == 1);
-    return all[0].message + " | " + all[0].hint + " | " + all[0].port + all[0].parameter;
-}
-
 }  // namespace
 
 TEST_CASE("The displays of moduleCL always show the complete memory, and do not change surplus cells") {
-    Bench b("3", "5");
+    ContextualBench b("3", "5");
     b.out("action", 2, 1)
         .out("empty", 5, 4)
         .out("collector", 5, 3)
@@ -73,7 +67,7 @@ TEST_CASE("The displays of moduleCL always show the complete memory, and do not 
 }
 
 TEST_CASE("moduleCL works without displays") {
-    Bench b("3", "5");
+    ContextualBench b("3", "5");
     b.out("action", 3, 1);
     for (const auto& d : displays) b.bind(d, true, 0, 0, 0);
     REQUIRE(b.problems().empty());
@@ -84,7 +78,7 @@ TEST_CASE("moduleCL works without displays") {
 }
 
 TEST_CASE("moduleCL reads its sizes only at the start, and starts with an empty memory") {
-    Bench b("2", "2");
+    ContextualBench b("2", "2");
     b.out("action", 3, 1);
     for (const auto& d : displays) b.out(d, 2, 2);
     b.start();
@@ -99,7 +93,7 @@ TEST_CASE("moduleCL reads its sizes only at the start, and starts with an empty 
 }
 
 TEST_CASE("moduleCL reports groups and parameters that do not fit the memory") {
-    const auto bound = [](Bench& b, int action, int collector, int trigger) {
+    const auto bound = [](ContextualBench& b, int action, int collector, int trigger) {
         b.out("action", action, 1)
             .out("empty", 5, 3)
             .out("collector", collector, 3)
@@ -107,7 +101,7 @@ TEST_CASE("moduleCL reports groups and parameters that do not fit the memory") {
             .out("selected", 5, 3);
         b.out("trigger", trigger, 3);
     };
-    Bench fits("3", "5"), action("3", "5"), collector("3", "5"), trigger("3", "5");
+    ContextualBench fits("3", "5"), action("3", "5"), collector("3", "5"), trigger("3", "5");
     bound(fits, 3, 5, 6);
     CHECK(fits.problems().empty());
     bound(action, 4, 5, 5);
@@ -119,7 +113,7 @@ TEST_CASE("moduleCL reports groups and parameters that do not fit the memory") {
     bound(trigger, 3, 5, 4);
     CHECK_THAT(only_problem(trigger),
                ContainsSubstring("'trigger'") && ContainsSubstring("make the group 5 x 3"));
-    Bench none("0", "5"), vast("1e9", "1e9");
+    ContextualBench none("0", "5"), vast("1e9", "1e9");
     bound(none, 3, 5, 5);
     CHECK_THAT(only_problem(none), ContainsSubstring("'Memory Height' is 0"));
     bound(vast, 3, 5, 5);

@@ -14,7 +14,7 @@ using Eigen::ArrayXf;
 namespace {
 
 /// The definition of the distance, without optimisations.
-float distance(const ArrayXf& stored, const ArrayXd& present) {
+float defined_distance(const ArrayXf& stored, const ArrayXd& present) {
     const float stored_peak = std::max(0.0F, stored.maxCoeff());
     const double present_peak = static_cast<float>(std::max(0.0, present.maxCoeff()));
     if (!(stored_peak > 0) || !(present_peak > 0)) return 1;
@@ -56,7 +56,7 @@ TEST_CASE("Distances have the same bits as the definition, whatever was added an
         store.compare(present, distances.data());
         REQUIRE(store.size() == static_cast<Index>(stored.size()));
         for (const auto& [k, prototype] : stored)
-            if (distances[static_cast<std::size_t>(k)] != distance(prototype, present))
+            if (distances[static_cast<std::size_t>(k)] != defined_distance(prototype, present))
                 FAIL("step " << step << ", key " << k);
     }
 }
@@ -84,7 +84,7 @@ TEST_CASE("Distances have the same bits as the definition for any number of prot
                 const ArrayXd present = drawn(cells).cast<double>() * (i % 2 ? 1 : 1.1);
                 store.compare(present, distances.data());
                 for (std::size_t key = 0; key < stored.size(); ++key)
-                    wrong += distances[key] != distance(stored[key], present);
+                    wrong += distances[key] != defined_distance(stored[key], present);
             }
             INFO(count << " prototypes of " << cells << " cells");
             CHECK(wrong == 0);
@@ -137,7 +137,7 @@ TEST_CASE("Distances have the same bits as the definition when each prototype ha
             const ArrayXd present = drawn().cast<double>();
             store.compare(present, distances.data());
             for (const auto& [k, prototype] : stored)
-                wrong += distances[static_cast<std::size_t>(k)] != distance(prototype, present);
+                wrong += distances[static_cast<std::size_t>(k)] != defined_distance(prototype, present);
         }
         CHECK(wrong == 0);
     }

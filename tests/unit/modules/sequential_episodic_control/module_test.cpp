@@ -12,8 +12,8 @@ namespace {
 
 const std::vector<std::string> pictures{"memory", "eligibility", "trigger", "selected", "rewards"};
 
-struct Bench : ModuleBench {
-    Bench(int segments, int capacity) : ModuleBench(module_type<SequentialControlModule>()) {
+struct SequentialBench : ModuleBench {
+    SequentialBench(int segments, int capacity) : ModuleBench(module_type<SequentialControlModule>()) {
         set("Sequence Length", std::to_string(segments)).set("Memory Capacity", std::to_string(capacity));
         set("Decision Interval", "1").set("Least Sequences", "0");
         in("state", 4, 1).in("action", 3, 1).in("reward", 2, 1).in("discrepancy", 1, 1);
@@ -35,7 +35,7 @@ struct Bench : ModuleBench {
 };
 
 /// Stores the way 0 -> 1 with the actions 1 and 2.
-void learn(Bench& b) {
+void learn(SequentialBench& b) {
     b.cycle(0, -1);
     b.cycle(1, 1);
     b.cycle(2, 2);
@@ -82,7 +82,7 @@ double corridor(bool bias, std::uint64_t seed) {
 }  // namespace
 
 TEST_CASE("moduleSEC repeats the way that led to a reward, and prefers what comes next") {
-    Bench b(3, 5);
+    SequentialBench b(3, 5);
     REQUIRE(b.problems().empty());
     b.start();
     learn(b);
@@ -102,7 +102,7 @@ TEST_CASE("moduleSEC repeats the way that led to a reward, and prefers what come
 }
 
 TEST_CASE("moduleSEC acts only with enough sequences and a small discrepancy; a lasting reward counts once") {
-    Bench b(3, 5);
+    SequentialBench b(3, 5);
     b.start();
     learn(b);
     b.cycle(2, 0, 1, true);
@@ -125,7 +125,7 @@ TEST_CASE("moduleSEC acts only with enough sequences and a small discrepancy; a 
 }
 
 TEST_CASE("moduleSEC decides in every k-th cycle of an episode and keeps its outputs between") {
-    Bench b(3, 5);
+    SequentialBench b(3, 5);
     b.start();
     learn(b);
     b.set("Decision Interval", "3");
@@ -140,7 +140,7 @@ TEST_CASE("moduleSEC decides in every k-th cycle of an episode and keeps its out
 }
 
 TEST_CASE("A moduleSEC that is written and read back continues with the same bits") {
-    const auto drive = [](Bench& b, int from, int to) {
+    const auto drive = [](SequentialBench& b, int from, int to) {
         std::vector<double> seen;
         for (int t = from; t < to; ++t) {
             b.cycle(t * 7 % 4, t * 5 % 3, t % 9 == 8, t % 9 == 8);
@@ -149,14 +149,14 @@ TEST_CASE("A moduleSEC that is written and read back continues with the same bit
         }
         return seen;
     };
-    Bench one(3, 4), two(3, 4);
+    SequentialBench one(3, 4), two(3, 4);
     one.seed(3).start();
     two.seed(3).start();
     drive(one, 0, 100);
     drive(two, 0, 100);
     Archive out;
     one.module<SequentialControlModule>().checkpoint(out);
-    Bench third(3, 4);
+    SequentialBench third(3, 4);
     third.seed(3).start();
     for (int t = 0; t < 100; ++t) third.cycle(-1, -1);  // to the same cycle, with another past
     Archive in(out.bytes());
@@ -168,7 +168,7 @@ TEST_CASE("A moduleSEC that is written and read back continues with the same bit
 }
 
 TEST_CASE("Between episodes moduleSEC neither decides nor counts time, and keeps the last couplet") {
-    Bench b(3, 5);
+    SequentialBench b(3, 5);
     b.start();
     b.cycle(0, -1);
     b.cycle(1, 1);
@@ -188,7 +188,7 @@ TEST_CASE("Between episodes moduleSEC neither decides nor counts time, and keeps
 }
 
 TEST_CASE("moduleSEC reports options and sizes that it does not know") {
-    Bench b(3, 4);
+    SequentialBench b(3, 4);
     b.set("Forgetting", "LRU").set("Choice", "best").set("Decision Interval", "0");
     const auto all = b.problems();
     REQUIRE(all.size() == 3);

@@ -111,7 +111,7 @@ struct Waiting {
     void update(Cell& c, const Input& in) const { c.act = in.excitation > 0, c.waited += 1 - c.act; }
 };
 
-Registry types() {
+Registry parallel_types() {
     Registry r = registry();
     r.add(neuron_type<Total>());
     r.add(neuron_type<Pulse>());
@@ -166,7 +166,7 @@ TEST_CASE("Groups and connections divided between threads have the bits of whole
     echo.type = "moduleEcho";
     echo.inputs.push_back({"in", large.groups[0], {}}), echo.outputs.push_back({"out", large.groups[1], {}});
     model::find_process(large.system, large.process)->module = echo;
-    const Registry registry = types();
+    const Registry registry = parallel_types();
     auto one = run(large.system, registry),
          many = run(large.system, registry,
                     {.threads = GENERATE(2, 3, 5), .parallel_threshold_ns = 0, .min_task_ns = 0});
@@ -190,7 +190,7 @@ TEST_CASE("A divided group that is quiescent is updated again when its input cha
     const auto a = model::add_group(s, p, "A", 20, 20, "one"),
                b = model::add_group(s, p, "B", 20, 20, "neuronLinearThreshold");
     connect(s, a, b, InputKind::excitatory, "synapseFixedWeight").arborization.shape = model::RectArbor{3, 3};
-    const Registry registry = types();
+    const Registry registry = parallel_types();
     auto two = run(s, registry, {.threads = 2, .parallel_threshold_ns = 0, .min_task_ns = 0});
     for (int cycle = 0; cycle < 40; ++cycle) two.step();
     CHECK(activity(two, "P/B")[21] == 9);
@@ -211,7 +211,7 @@ TEST_CASE("Numbers that are not finite are found in every part of a divided grou
                b = model::add_group(s, p, "B", 397, 1, "neuronLinearThreshold");
     connect(s, a, b, InputKind::excitatory, "synapseFixedWeight").arborization.shape = model::RectArbor{1, 1};
     model::set_parameter(model::find_group(s, b)->neuron, "vmPrs", "1");
-    const Registry registry = types();
+    const Registry registry = parallel_types();
     const Index cell = GENERATE(0, 63, 64, 250, 384, 391, 396);
     auto simulation =
         run(s, registry, {.threads = GENERATE(1, 2), .parallel_threshold_ns = 0, .min_task_ns = 0});
@@ -235,7 +235,7 @@ TEST_CASE("When several groups fail, divided or not, the first one is reported")
         small(), large();
     else
         large(), small();
-    Registry registry = types();
+    Registry registry = parallel_types();
     registry.add(neuron_type<Failing<false>>());
     auto in_parts = neuron_type<Failing<true>>();
     in_parts.elementwise = true;  // as if it had a Cell, and would not see how many cells are updated at once
@@ -260,7 +260,7 @@ TEST_CASE(
     if (update_fails) model::add_group(s, p, "Last", 2, 2, "failing");
     connect(s, c, a, InputKind::excitatory, "failing_synapse", "to A");  // has to wait for C
     connect(s, a, b, InputKind::excitatory, "failing_synapse", "to B");
-    Registry registry = types();
+    Registry registry = parallel_types();
     registry.add(synapse_type<FailingSynapse>());
     registry.add(neuron_type<Failing<false>>());
     auto simulation =
@@ -279,7 +279,7 @@ TEST_CASE("Deliveries to whole groups are shared") {
         const auto reader = model::add_group(s, p, "Reader " + std::to_string(i), 2, 2, "total");
         connect(s, hub, reader, InputKind::excitatory, "slow", "to " + std::to_string(i));
     }
-    Registry registry = types();
+    Registry registry = parallel_types();
     registry.add(synapse_type<Slow>());
     auto simulation =
         run(s, registry, {.threads = 2, .parallel_threshold_ns = 0, .min_task_ns = GENERATE(0.0, 1e9)});
@@ -299,7 +299,7 @@ TEST_CASE("Of a divided group, one part may be at rest and active while another 
     connect(system, pulse, half, InputKind::excitatory, "synapseFixedWeight").pattern =
         model::ForeachPattern{{}, model::Region{1, 1, 8, 16, {}}};
     connect(system, half, late, InputKind::excitatory, "synapseFixedWeight").delay = uniform(3);
-    const Registry registry = types();
+    const Registry registry = parallel_types();
     auto one = run(system, registry),
          many = run(system, registry, {.threads = 2, .parallel_threshold_ns = 0, .min_task_ns = 0});
     REQUIRE(many.threads() > 1);
