@@ -11,19 +11,15 @@ ContextualLayer::ContextualLayer(Index sequences, Index segments, Index prototyp
       memory_(sequences, segments, prototype_cells, action_cells),
       action_(Eigen::ArrayXf::Zero(action_cells)) {}
 
-bool ContextualLayer::update(const Inputs& in, const Settings& settings, Exact exact) {
+bool ContextualLayer::update(const Inputs& in, const Settings& settings) {
     const auto discrepancy = static_cast<float>(in.discrepancy);
     if (discrepancy > 1e-6 && discrepancy < static_cast<float>(settings.discrepancy_threshold)) open_ = true;
     if (!open_) return false;
     acquire(in);
-    if (exact == Exact::all)
-        memory_.compare(in.prototype);
-    else
-        memory_.estimate(in.prototype);
+    memory_.compare(in.prototype);
     const auto threshold = static_cast<float>(settings.memory_threshold),
                share = static_cast<float>(settings.winner_share);
     memory_.collect(static_cast<float>(settings.trigger_decay));
-    memory_.refine_candidates(threshold, share);
     select(memory_, threshold, share, static_cast<float>(settings.trigger_reset));
     sum_actions(memory_, action_);
     return true;

@@ -39,11 +39,8 @@ class ContextualLayer {
     /// the long-term memory, at least 1.
     ContextualLayer(Index sequences, Index segments, Index prototype_cells, Index action_cells);
 
-    /// The distances and collectors that are exact: all, or only those of segments that can be selected,
-    /// which is faster.
-    enum class Exact { all, selectable };
     /// Computes one step. Does not allocate memory. Returns false while the layer is closed.
-    bool update(const Inputs& in, const Settings& settings, Exact exact = Exact::all);
+    bool update(const Inputs& in, const Settings& settings);
 
     const Eigen::ArrayXf& action() const { return action_; }  ///< action of the last step, M values
     const LongTermMemory& memory() const { return memory_; }

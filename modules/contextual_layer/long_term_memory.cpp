@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include "core/base/simd.h"
 
@@ -22,26 +21,11 @@ class Largest {
 
 float positive(float x) { return x > 0.0F ? x : 0.0F; }
 
-/// Computes the collectors of a row. Returns the largest, or 0 if none is above 0.
-FORAGE_SIMD float update_collectors(const float* distance, const float* trigger, Index n, float* collector) {
-    Largest peak;
-#ifndef __clang__
-#pragma GCC ivdep
-#endif
-    for (Index i = 0; i < n; ++i) {
-        const float c = (1.0F - distance[i]) * trigger[i];
-        collector[i] = c;
-        peak.note(positive(c));
-    }
-    return peak.value();
-}
-
 /// Updates the triggers and collectors of a row, see LongTermMemory::collect(). Returns the largest
 /// collector, or 0 if none is above 0.
-FORAGE_SIMD float collect_row(const float* distance, Index n, float decay, float* trigger, float* collector,
-                              Largest& largest_trigger) {
+FORAGE_SIMD float collect_row(const float* distance, Index n, float decay, float* trigger, float* collector) {
     const float kept = 1 - decay;
-    Largest peak, trigger_peak;
+    Largest peak;
 #ifndef __clang__
 #pragma GCC ivdep
 #endif
@@ -52,9 +36,7 @@ FORAGE_SIMD float collect_row(const float* distance, Index n, float decay, float
         trigger[i] = t;
         collector[i] = c;
         peak.note(positive(c));
-        trigger_peak.note(std::abs(t));
     }
-    largest_trigger.note(trigger_peak.value());
     return peak.value();
 }
 
@@ -94,36 +76,11 @@ void LongTermMemory::compare(const Eigen::Ref<const Eigen::ArrayXd>& prototype) 
     prototypes_.compare(prototype, distance_.data());
 }
 
-void LongTermMemory::estimate(const Eigen::Ref<const Eigen::ArrayXd>& prototype) {
-    prototypes_.estimate(prototype, distance_.data());
-}
-
 void LongTermMemory::collect(float decay) {
-    Largest largest_trigger;
     for (Index row = 0; row < sequences(); ++row) {
         const Index first = row * segments();
-        peaks_[static_cast<std::size_t>(row)] =
-            collect_row(distance_.data() + first, length(row), decay, trigger_.data() + first,
-                        collector_.data() + first, largest_trigger);
-    }
-    largest_trigger_ = largest_trigger.value();
-}
-
-void LongTermMemory::refine_candidates(float threshold, float share) {
-    if (!(prototypes_.error() > 0)) return;
-    const float error = prototypes_.error() * largest_trigger_, largest = *std::ranges::max_element(peaks_),
-                needed = std::max(threshold, share * largest - std::abs(share) * error);
-    // With this order of the comparison, segments with NaN are refined, too.
-    const auto too_small = [=](float collector) { return collector + error < needed; };
-    for (Index row = 0; row < sequences(); ++row)
-        for (Index column = 0; column < length(row) && !too_small(peak(row)); ++column)
-            if (!too_small(collector_(row, column))) prototypes_.require(row * segments() + column);
-    prototypes_.refine(distance_.data());
-    for (Index row = 0; row < sequences(); ++row) {
-        if (too_small(peak(row))) continue;
-        const Index first = row * segments();
-        peaks_[static_cast<std::size_t>(row)] = update_collectors(
-            distance_.data() + first, trigger_.data() + first, length(row), collector_.data() + first);
+        peaks_[static_cast<std::size_t>(row)] = collect_row(
+            distance_.data() + first, length(row), decay, trigger_.data() + first, collector_.data() + first);
     }
 }
 

@@ -36,16 +36,9 @@ class LongTermMemory {
 
     /// Computes the distance d of the present prototype to that of each used segment (see PrototypeStore).
     void compare(const Eigen::Ref<const Eigen::ArrayXd>& prototype);
-    /// Estimates the distances that compare() computes exactly. The distances and the collectors are
-    /// estimates until refine_candidates() is called.
-    void estimate(const Eigen::Ref<const Eigen::ArrayXd>& prototype);
     /// Updates the triggers and collectors of all used segments: t <- (1 - decay) t + decay if t is above 1,
     /// else t <- 1; then c = (1 - d) t.
     void collect(float decay);
-    /// Makes the distances and collectors exact for all segments that can be selected: those whose collector
-    /// may be above `threshold` and at least `share` times the largest one. The collectors that remain
-    /// estimates are too small to be selected.
-    void refine_candidates(float threshold, float share);
 
     const SegmentArray& distance() const { return distance_; }
     const SegmentArray& collector() const { return collector_; }
@@ -73,7 +66,6 @@ class LongTermMemory {
     std::vector<Index> lengths_;
     SegmentArray distance_, collector_, trigger_, selected_;
     std::vector<float> peaks_;                 ///< largest collector per row
-    float largest_trigger_ = 0;                ///< largest |t| of a used segment in the last collect()
     std::vector<std::uint8_t> has_selection_;  ///< per row: whether a segment is selected
     Index next_ = 0;
 };

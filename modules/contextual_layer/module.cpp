@@ -118,11 +118,9 @@ void ContextualLayerModule::start(const ModulePorts& ports) {
 
 void ContextualLayerModule::update(ModuleFrame& frame) {
     const auto& goals = frame.input(stats);
-    const bool exact = frame.is_read(distance) || frame.is_read(collector);
     if (!layer_.update({frame.input(action_in), frame.input(prototype), goals[0], goals[1],
                         frame.input(discrepancy_in)[0]},
-                       {threshold, share, reset, decay, discrepancy},
-                       exact ? ContextualLayer::Exact::all : ContextualLayer::Exact::selectable))
+                       {threshold, share, reset, decay, discrepancy}))
         return;
     Column action = frame.output(action_out);
     action = layer_.action().head(action.size()).cast<double>();

@@ -8,8 +8,6 @@
 namespace forage::contextual {
 namespace {
 
-constexpr int pause_after_waste = 16;  ///< comparisons without estimates
-
 using CellsOf =
     Eigen::Map<Eigen::ArrayXd, 0, Eigen::InnerStride<lanes>>;  ///< the cells of one prototype in its block
 
@@ -42,7 +40,6 @@ PrototypeStore::PrototypeStore(Index keys, Index capacity, Index cells)
       compared_(Eigen::ArrayXd::Zero(cells)),
       present_(Eigen::ArrayXd::Zero(cells)),
       active_(static_cast<std::size_t>(words_)),
-      coarse_((capacity + lanes - 1) / lanes, cells),
       listed_(cells) {
     const Index blocks = (capacity + lanes - 1) / lanes;
     blocks_.setZero(blocks * cells * lanes);
@@ -50,9 +47,6 @@ PrototypeStore::PrototypeStore(Index keys, Index capacity, Index cells)
     silent_.resize(static_cast<std::size_t>(blocks * lanes), 0);
     keys_.reserve(static_cast<std::size_t>(capacity));
     slots_.resize(static_cast<std::size_t>(keys), 0);
-    exact_.resize(static_cast<std::size_t>(blocks), 1);
-    out_of_range_.resize(static_cast<std::size_t>(blocks * lanes), 0);
-    required_.reserve(static_cast<std::size_t>(blocks));
 }
 
 void PrototypeStore::add(Index key, const Eigen::Ref<const Eigen::ArrayXf>& prototype) {
@@ -67,7 +61,7 @@ void PrototypeStore::add(Index key, const Eigen::Ref<const Eigen::ArrayXf>& prot
         cells = (prototype / peak).cast<double>();
     else
         cells.setZero();
-    update_derived(slot);
+    note_used(slot / lanes);
 }
 
 void PrototypeStore::remove(Index key) {
@@ -78,34 +72,20 @@ void PrototypeStore::remove(Index key) {
         silent_[static_cast<std::size_t>(slot)] = silent_[static_cast<std::size_t>(last)];
         keys_[static_cast<std::size_t>(slot)] = keys_.back();
         slots_[static_cast<std::size_t>(keys_.back())] = slot;
-        update_derived(slot);
+        note_used(slot / lanes);
     }
     CellsOf(cells_of(last), cells_).setZero();
-    update_derived(last);
+    note_used(last / lanes);
     keys_.pop_back();
 }
 
-/// Updates the derived data of a slot.
-void PrototypeStore::update_derived(Index slot) {
-    const CellsOf cells(cells_of(slot), cells_);
-    auto& bad = out_of_range_[static_cast<std::size_t>(slot)];
-    out_of_range_count_ -= bad;
-    bad = !(cells >= 0.0 && cells <= 1.0).all();
-    out_of_range_count_ += bad;
-    for (Index i = 0; i < cells_ && coarse_.useful(); ++i) coarse_.put(slot, i, bad ? 0 : cells[i]);
-
-    const Index block = slot / lanes;
+/// Finds the cells of a block that are not 0 in some lane.
+void PrototypeStore::note_used(Index block) {
     std::uint64_t* used = &used_[static_cast<std::size_t>(block * words_)];
     std::fill_n(used, words_, 0);
     for (Index i = 0; i < cells_; ++i)
         if ((blocks_.segment<lanes>((block * cells_ + i) * lanes) != 0.0).any())
             used[i / cells_per_word] |= std::uint64_t{1} << (i % cells_per_word);
-}
-
-void PrototypeStore::rebuild_derived() {
-    const auto slots = static_cast<Index>(silent_.size());
-    for (Index slot = 0; slot < slots; ++slot) update_derived(slot);
-    estimated_ = std::count(exact_.begin(), exact_.begin() + blocks_in_use(), 0);
 }
 
 /// Sets p. Returns false when no comparison is necessary, because the distances in the array are already
@@ -115,10 +95,7 @@ bool PrototypeStore::set_present(const Eigen::Ref<const Eigen::ArrayXd>& present
     current_ = true;
     compared_ = present;
     const double peak = static_cast<float>(std::max(0.0, present.maxCoeff()));
-    const bool silent = !(peak > 0);
-    std::fill_n(exact_.begin(), blocks_in_use(), silent);
-    estimated_ = silent ? 0 : blocks_in_use();
-    if (silent) {
+    if (!(peak > 0)) {
         for (const Index key : keys_) distances[key] = 1;
         return false;
     }
@@ -131,59 +108,10 @@ bool PrototypeStore::set_present(const Eigen::Ref<const Eigen::ArrayXd>& present
 }
 
 void PrototypeStore::compare(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances) {
-    set_present(present, distances);
-    require_all();
-    compare_required(distances);
-}
-
-void PrototypeStore::estimate(const Eigen::Ref<const Eigen::ArrayXd>& present, float* distances) {
     if (!set_present(present, distances)) return;
-    if (estimates_paused_ > 0 || !can_estimate()) {
-        estimates_paused_ = std::max(0, estimates_paused_ - 1);
-        require_all();
-        compare_required(distances);
-        return;
-    }
-    coarse_.compare_with(present_);
-    const Index blocks = blocks_in_use();
-    for (Index first = 0; first < blocks; first += 2) {
-        const Index second = std::min(first + 1, blocks - 1);
-        list_cells(first, second);
-        float found[2 * lanes];
-        coarse_.estimate(first, second, listed_, found);
-        write_distances(first, found, distances);
-        write_distances(second, found + lanes, distances);
-    }
-}
-
-bool PrototypeStore::can_estimate() const {
-    return coarse_.useful() && out_of_range_count_ == 0 &&
-           (present_ >= 0.0 && present_ <= CoarsePrototypes::max_cell).all();
-}
-
-void PrototypeStore::require(Index key) { require_block(slots_[static_cast<std::size_t>(key)] / lanes); }
-
-void PrototypeStore::require_block(Index block) {
-    auto& exact = exact_[static_cast<std::size_t>(block)];
-    if (exact) return;
-    exact = 1;
-    required_.push_back(block);
-}
-
-void PrototypeStore::require_all() {
-    for (Index block = 0; block < blocks_in_use(); ++block) require_block(block);
-}
-
-void PrototypeStore::refine(float* distances) {
-    if (required_.empty()) return;
-    compare_required(distances);
-    if (3 * estimated_ < blocks_in_use()) estimates_paused_ = pause_after_waste;
-}
-
-void PrototypeStore::compare_required(float* distances) {
     const double share = 1.0F / static_cast<float>(cells_);
-    for (std::size_t n = 0; n < required_.size(); n += 2) {
-        const Index first = required_[n], second = required_[std::min(n + 1, required_.size() - 1)];
+    for (Index first = 0; first < blocks_in_use(); first += 2) {
+        const Index second = std::min(first + 1, blocks_in_use() - 1);
         list_cells(first, second);
         double sums[2 * lanes];
         float found[2 * lanes];
@@ -193,8 +121,6 @@ void PrototypeStore::compare_required(float* distances) {
         write_distances(first, found, distances);
         write_distances(second, found + lanes, distances);
     }
-    estimated_ -= static_cast<Index>(required_.size());
-    required_.clear();
 }
 
 /// Lists the cells that contribute to the distances of two blocks. Infinite numbers and NaN contribute.
