@@ -14,46 +14,23 @@
 namespace forage::plot {
 namespace {
 
-constexpr int cube = 6, transparent = 255, greys = transparent - cube * cube * cube;
-
-int cube_level(int i) { return (i * 255 + (cube - 1) / 2) / (cube - 1); }
-int grey_level(int i) { return ((i + 1) * 255 + (greys + 1) / 2) / (greys + 1); }
+constexpr int transparent = 255;
 
 GifColorType from_rgb(std::uint32_t rgb) {
     const auto byte = [rgb](int shift) { return static_cast<GifByteType>(rgb >> shift & 255); };
     return {byte(16), byte(8), byte(0)};
 }
 
-std::array<GifColorType, 256> make_table() {
-    std::array<GifColorType, 256> table{};
-    const auto byte = [](int v) { return static_cast<GifByteType>(v); };
-    for (int r = 0; r < cube; ++r)
-        for (int g = 0; g < cube; ++g)
-            for (int b = 0; b < cube; ++b)
-                table[static_cast<std::size_t>((r * cube + g) * cube + b)] = {
-                    byte(cube_level(r)), byte(cube_level(g)), byte(cube_level(b))};
-    for (int i = 0; i < greys; ++i)
-        table[static_cast<std::size_t>(cube * cube * cube + i)] = {byte(grey_level(i)), byte(grey_level(i)),
-                                                                   byte(grey_level(i))};
-    return table;
-}
-
-/// The number of the nearest colour in the table.
-std::uint8_t nearest_colour(std::uint32_t rgb) {
-    const int r = static_cast<int>(rgb >> 16 & 255), g = static_cast<int>(rgb >> 8 & 255),
-              b = static_cast<int>(rgb & 255);
-    const auto step = [](int v) { return (v * (cube - 1) + 127) / 255; };
-    const int in_cube = (step(r) * cube + step(g)) * cube + step(b);
-    const int mean = (r + g + b) / 3,
-              in_greys = std::clamp((mean * (greys + 1) + 127) / 255 - 1, 0, greys - 1);
-    const auto away = [&](int x, int y, int z) {
-        return (r - x) * (r - x) + (g - y) * (g - y) + (b - z) * (b - z);
-    };
-    const int grey_away = away(grey_level(in_greys), grey_level(in_greys), grey_level(in_greys));
-    return static_cast<std::uint8_t>(
-        grey_away < away(cube_level(step(r)), cube_level(step(g)), cube_level(step(b)))
-            ? cube * cube * cube + in_greys
-            : in_cube);
+/// 6 x 6 x 6 colours, and greys.
+std::vector<std::uint32_t> film_colours() {
+    constexpr std::uint32_t cube = 6, greys = transparent - cube * cube * cube;
+    const auto level = [](std::uint32_t i, std::uint32_t steps) { return (i * 255 + steps / 2) / steps; };
+    std::vector<std::uint32_t> out;
+    for (std::uint32_t i = 0; i < cube * cube * cube; ++i)
+        out.push_back(level(i / (cube * cube), cube - 1) << 16 | level(i / cube % cube, cube - 1) << 8 |
+                      level(i % cube, cube - 1));
+    for (std::uint32_t i = 1; i <= greys; ++i) out.push_back(level(i, greys + 1) * 0x010101);
+    return out;
 }
 
 int in_hundredths(double seconds) { return std::max(2, static_cast<int>(std::lround(100 * seconds))); }
@@ -67,7 +44,7 @@ int append_bytes(GifFileType* file, const GifByteType* bytes, int count) {
 }  // namespace
 
 GifFile::GifFile(std::string name, double seconds_per_frame)
-    : name_(std::move(name)), hundredths_(in_hundredths(seconds_per_frame)) {}
+    : name_(std::move(name)), colours_(film_colours()), hundredths_(in_hundredths(seconds_per_frame)) {}
 
 GifFile::GifFile(std::string* content, double seconds_per_frame, std::vector<std::uint32_t> colours)
     : name_("an animation"),
@@ -94,8 +71,8 @@ void GifFile::begin(const Pixels& frame) {
     const auto pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
     rgb_.resize(pixels), numbers_.resize(pixels), changes_.assign(pixels, transparent);
     EGifSetGifVersion(file_, true);
-    auto table = make_table();
-    for (std::size_t i = 0; i < colours_.size(); ++i) table[i] = from_rgb(colours_[i]);
+    std::array<GifColorType, 256> table{};
+    std::ranges::transform(colours_, table.begin(), from_rgb);
     const std::unique_ptr<ColorMapObject, void (*)(ColorMapObject*)> colours(
         GifMakeMapObject(256, table.data()), GifFreeMapObject);
     check(colours && EGifPutScreenDesc(file_, width_, height_, 8, 0, colours.get()) == GIF_OK);
@@ -108,7 +85,6 @@ void GifFile::begin(const Pixels& frame) {
 
 std::uint8_t GifFile::number_of(std::uint32_t rgb) {
     rgb &= 0xFFFFFF;
-    if (colours_.empty()) return nearest_colour(rgb);
     const auto [at, added] = nearest_.try_emplace(rgb);
     if (added) {
         const auto away = [rgb](std::uint32_t other) {

@@ -46,7 +46,7 @@ class GifFile {
 
     std::string name_;
     std::string* content_ = nullptr;
-    std::vector<std::uint32_t> colours_;                       ///< of the table; empty for that of files
+    std::vector<std::uint32_t> colours_;                       ///< of the table
     std::unordered_map<std::uint32_t, std::uint8_t> nearest_;  ///< the numbers of colours that were looked up
     int hundredths_;
     GifFileType* file_ = nullptr;
