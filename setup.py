@@ -24,8 +24,14 @@ class Build(build_ext):
 
     def build_extension(self, extension):
         tree = PROJECT / "build/pip"
-        options = ["-DFORAGE_PYTHON=ON", "-DFORAGE_TESTS=OFF", "-DFORAGE_BENCH=OFF", f"-DPython3_EXECUTABLE={sys.executable}",
-                   "-DCMAKE_MODULE_LINKER_FLAGS=-s", *shlex.split(os.environ.get("CMAKE_ARGS", ""))]
+        options = [
+            "-DFORAGE_PYTHON=ON",
+            "-DFORAGE_TESTS=OFF",
+            "-DFORAGE_BENCH=OFF",
+            f"-DPython3_EXECUTABLE={sys.executable}",
+            "-DCMAKE_MODULE_LINKER_FLAGS=-s",
+            *shlex.split(os.environ.get("CMAKE_ARGS", "")),
+        ]
         cmake = os.environ.get("CMAKE", "cmake")
         subprocess.run([cmake, "--preset", "release", "-S", PROJECT, "-B", tree, *options], check=True, cwd=PROJECT)
         subprocess.run([cmake, "--build", tree, "--target", "forage_python"], check=True)
@@ -34,6 +40,16 @@ class Build(build_ext):
         shutil.copy(next((tree / "python/forage").glob(f"_forage*{target.suffix}")), target)
 
 
-setup(name="forage", version=VERSION, description="Runs iqr brain models in a closed loop with a simulated robot", license="BSD-3-Clause",
-      python_requires=">=3.9", install_requires=["numpy"], packages=["forage"], package_dir={"": "tools/python"},
-      package_data={"forage": ["*.pyi", "py.typed"]}, ext_modules=[Extension("forage._forage", [])], cmdclass={"build_ext": Build})
+setup(
+    name="forage",
+    version=VERSION,
+    description="Runs iqr brain models in a closed loop with a simulated robot",
+    license="BSD-3-Clause",
+    python_requires=">=3.9",
+    install_requires=["numpy"],
+    packages=["forage"],
+    package_dir={"": "tools/python"},
+    package_data={"forage": ["*.pyi", "py.typed"]},
+    ext_modules=[Extension("forage._forage", [])],
+    cmdclass={"build_ext": Build},
+)

@@ -55,8 +55,8 @@ def png(rows):
 def pixels(file):
     """The pixels of a file that png() wrote, which other versions of zlib compress to other bytes."""
     start = file.index(b"IDAT") + 4
-    (size,) = struct.unpack(">I", file[start - 8:start - 4])
-    return zlib.decompress(file[start:start + size])
+    (size,) = struct.unpack(">I", file[start - 8 : start - 4])
+    return zlib.decompress(file[start : start + size])
 
 
 def main(arguments):

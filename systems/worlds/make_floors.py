@@ -22,26 +22,33 @@ PIXELS = 2000  # pictures are PIXELS x PIXELS: 4 mm a pixel on a floor of 8 m, 6
 
 # floor: (side of the floor in m, radius of the patches in m, patches as (world x, world y, colour))
 FLOORS = {
-    "floor_basic": (8, 0.2013, [
-        (-1.49,  1.694, RED),                           (1.49,  1.694, GREEN),
-                              (0.0,  0.993, YELLOW),
-        (-1.49,  0.204, CYAN),                          (1.49,  0.204, MAGENTA),
-                              (0.0, -0.497, BLUE),
-    ]),
-    "floor_ambiguous": (8, 0.2013, [
-        (-1.49,  1.694, RED),                           (1.49,  1.694, RED),
-                              (0.0,  0.993, RED),
-        (-1.49,  0.204, CYAN),                          (1.49,  0.204, MAGENTA),
-                              (0.0, -0.497, BLUE),
-    ]),
-    "floor_open": (12, 0.3065, [
-        (-2.158,  3.065, LIME),    (2.558,  2.984, BLUE),
-        (-4.554,  1.475, ORANGE),  (4.655,  1.474, GREEN),
-        (-1.405,  0.952, MAGENTA), (1.492,  0.952, VIOLET),
-        (-0.012, -1.247, AZURE),
-        (-4.343, -1.548, MINT),    (4.195, -1.847, ROSE),
-        (-2.226, -2.939, YELLOW),  (1.958, -3.074, CYAN),
-    ]),
+    "floor_basic": (
+        8,
+        0.2013,
+        [(-1.49, 1.694, RED), (1.49, 1.694, GREEN), (0.0, 0.993, YELLOW), (-1.49, 0.204, CYAN), (1.49, 0.204, MAGENTA), (0.0, -0.497, BLUE)],
+    ),
+    "floor_ambiguous": (
+        8,
+        0.2013,
+        [(-1.49, 1.694, RED), (1.49, 1.694, RED), (0.0, 0.993, RED), (-1.49, 0.204, CYAN), (1.49, 0.204, MAGENTA), (0.0, -0.497, BLUE)],
+    ),
+    "floor_open": (
+        12,
+        0.3065,
+        [
+            (-2.158, 3.065, LIME),
+            (2.558, 2.984, BLUE),
+            (-4.554, 1.475, ORANGE),
+            (4.655, 1.474, GREEN),
+            (-1.405, 0.952, MAGENTA),
+            (1.492, 0.952, VIOLET),
+            (-0.012, -1.247, AZURE),
+            (-4.343, -1.548, MINT),
+            (4.195, -1.847, ROSE),
+            (-2.226, -2.939, YELLOW),
+            (1.958, -3.074, CYAN),
+        ],
+    ),
 }
 
 
@@ -58,7 +65,7 @@ def paint(side, radius, patches):
         column, row, reach = (x + side / 2) * scale, (side / 2 - y) * scale, radius * scale
         for r in range(int(row - reach), int(row + reach) + 1):
             for c in range(int(column - reach), int(column + reach) + 1):
-                if (c + 0.5 - column) ** 2 + (r + 0.5 - row) ** 2 <= reach ** 2:
+                if (c + 0.5 - column) ** 2 + (r + 0.5 - row) ** 2 <= reach**2:
                     rows[r][c] = palette.index(colour)
     return palette, rows
 
@@ -80,20 +87,23 @@ def png(palette, data):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
 
     header = struct.pack(">IIBBBBB", PIXELS, PIXELS, 4, 3, 0, 0, 0)  # 4 bits a pixel, colours from a palette
-    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"PLTE", bytes(sum(palette, ())))
-            + chunk(b"IDAT", zlib.compress(data, 9)) + chunk(b"IEND", b""))
+    return (
+        b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"PLTE", bytes(sum(palette, ()))) + chunk(b"IDAT", zlib.compress(data, 9)) + chunk(b"IEND", b"")
+    )
 
 
 def same_picture(a, b):
     """Equal but for how the pixels are compressed, which may differ between versions of zlib."""
+
     def parts(image):
         at, found = 8, []
         while at < len(image):
-            size, = struct.unpack(">I", image[at:at + 4])
-            kind, body = image[at + 4:at + 8], image[at + 8:at + 8 + size]
+            (size,) = struct.unpack(">I", image[at : at + 4])
+            kind, body = image[at + 4 : at + 8], image[at + 8 : at + 8 + size]
             found.append((kind, zlib.decompress(body) if kind == b"IDAT" else body))
             at += 12 + size
         return found
+
     return parts(a) == parts(b)
 
 

@@ -61,8 +61,7 @@ def start_up(forage, folder):
 def loading(forage):
     ring = SHARED / "perf" / "ring20x1000_all_to_all.iqr"
     if ring.exists():
-        result("loading/ring20x1000_all_to_all", "forage run --cycles 1",
-               median(3, forage, "run", ring, "--cycles", 1, "-o", "")[0], "s")
+        result("loading/ring20x1000_all_to_all", "forage run --cycles 1", median(3, forage, "run", ring, "--cycles", 1, "-o", "")[0], "s")
 
 
 def recording(forage, folder):
@@ -88,13 +87,15 @@ def recording(forage, folder):
 def sweep(forage, folder):
     cores, runs = os.cpu_count(), 8 * os.cpu_count()
     experiment = folder / "sweep.xml"
-    experiment.write_text(f"""<experiment>
+    experiment.write_text(
+        f"""<experiment>
   <system file="{SYSTEMS}/reactive_foraging.iqr"/>
   <world file="{SYSTEMS}/worlds/basic_arena.world"/>
   <length cycles="100000"/>
   <seeds first="1" count="{runs}"/>
   <measure name="success" success="all"/>
-</experiment>""")
+</experiment>"""
+    )
     wall, processor = run(forage, "experiment", experiment, "-o", folder / "sweep", "--quiet")
     result("sweep", "runs of 100,000 cycles", runs / wall, "1/s")
     result("sweep", "cores busy", processor / wall / cores, "")

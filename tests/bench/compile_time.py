@@ -37,7 +37,9 @@ def launch(command):
     log = pathlib.Path(LOG)
     lines = [f"{seconds:.2f} {command[command.index('-o') + 1]}\n"]
     if not log.exists() or log.read_text().count("\n") % 5 == 0:
-        _, seconds = processor_seconds([command[0], "-std=c++20", "-O1", "-isystem", "/usr/include/eigen3", "-c", HERE / "compile_reference.cpp", "-o", "/dev/null"])
+        _, seconds = processor_seconds(
+            [command[0], "-std=c++20", "-O1", "-isystem", "/usr/include/eigen3", "-c", HERE / "compile_reference.cpp", "-o", "/dev/null"]
+        )
         lines.append(f"{seconds:.2f} reference\n")
     with log.open("a") as file:
         file.writelines(lines)
@@ -63,7 +65,9 @@ def check(build, compiler, recording):
     change = ratio / record["ratio"] - 1
     for name in sorted(objects, key=times.get)[:-11:-1]:
         print(f"{times[name]:7.1f} s  {name}")
-    print(f"{sum(times[name] for name in objects):7.1f} s of processor time in all, {ratio:.1f} times that of the reference, {100 * change:+.1f} % against the record")
+    print(
+        f"{sum(times[name] for name in objects):7.1f} s of processor time in all, {ratio:.1f} times that of the reference, {100 * change:+.1f} % against the record"
+    )
     if recording:
         RECORD.write_text(json.dumps({"compiler": compiler, "ratio": round(ratio, 1)}, indent=1) + "\n")
     elif record["compiler"] != compiler:

@@ -26,9 +26,25 @@ SKIPPED = 77
 def instructions(forage, arguments, cycles):
     with tempfile.TemporaryDirectory() as folder:
         run = subprocess.run(
-            ["valgrind", "--tool=cachegrind", "--cache-sim=no", "--cachegrind-out-file=/dev/null", forage, "run",
-             *arguments, "--cycles", str(cycles), "-o", "", "--quiet"], cwd=ROOT, capture_output=True, text=True,
-            env={**os.environ, "TMPDIR": folder})
+            [
+                "valgrind",
+                "--tool=cachegrind",
+                "--cache-sim=no",
+                "--cachegrind-out-file=/dev/null",
+                forage,
+                "run",
+                *arguments,
+                "--cycles",
+                str(cycles),
+                "-o",
+                "",
+                "--quiet",
+            ],
+            cwd=ROOT,
+            capture_output=True,
+            text=True,
+            env={**os.environ, "TMPDIR": folder},
+        )
     count = re.search(r"I\s+refs:\s+([\d,]+)", run.stderr)
     if run.returncode or not count:
         sys.exit(f"{' '.join(arguments)} failed:\n{run.stderr}")

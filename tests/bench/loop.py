@@ -17,12 +17,30 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 # The test of a source is that of the longest path in this table that it begins with.
 TESTS = {
-    "core/base": "unit_base", "core/types": "unit_types", "core/model": "unit_model", "core/connectivity": "unit_connectivity",
-    "core/xml": "unit_xml", "core/engine": "unit_engine", "core/plugin": "plugins", "core/observe": "unit_observe", "core/run": "unit_run",
-    "neurons": "unit_engine", "synapses": "unit_engine", "modules": "unit_modules", "modules/devices": "unit_devices",
-    "bug_interface": "unit_bug_motion", "bug_interface/sensing": "unit_bug_sensing", "bug_interface/world": "unit_bug_sensing",
-    "tools/plot": "unit_plot", "tools/api": "unit_run", "tools/studio": "unit_studio", "tools/studio/main.cpp": "cli_studio",
-    "tools/forage": "cli_pictures", "tools/python": "python_types", "tools/cluster": "cluster_slurm", "tools/cluster/mpi.cpp": "cluster_mpi",
+    "core/base": "unit_base",
+    "core/types": "unit_types",
+    "core/model": "unit_model",
+    "core/connectivity": "unit_connectivity",
+    "core/xml": "unit_xml",
+    "core/engine": "unit_engine",
+    "core/plugin": "plugins",
+    "core/observe": "unit_observe",
+    "core/run": "unit_run",
+    "neurons": "unit_engine",
+    "synapses": "unit_engine",
+    "modules": "unit_modules",
+    "modules/devices": "unit_devices",
+    "bug_interface": "unit_bug_motion",
+    "bug_interface/sensing": "unit_bug_sensing",
+    "bug_interface/world": "unit_bug_sensing",
+    "tools/plot": "unit_plot",
+    "tools/api": "unit_run",
+    "tools/studio": "unit_studio",
+    "tools/studio/main.cpp": "cli_studio",
+    "tools/forage": "cli_pictures",
+    "tools/python": "python_types",
+    "tools/cluster": "cluster_slurm",
+    "tools/cluster/mpi.cpp": "cluster_mpi",
 }
 
 
@@ -48,9 +66,13 @@ def main():
     parser.add_argument("files", nargs="*")
     options = parser.parse_args()
     build = options.build.resolve()
-    listed = subprocess.run(["git", "-C", ROOT, "ls-files", *(f"{place}/*.cpp" for place in ("core", "neurons", "synapses", "modules", "bug_interface", "tools"))],
-                            check=True, stdout=subprocess.PIPE, text=True)
-    sources = options.files or listed.stdout.split()[::options.every]
+    listed = subprocess.run(
+        ["git", "-C", ROOT, "ls-files", *(f"{place}/*.cpp" for place in ("core", "neurons", "synapses", "modules", "bug_interface", "tools"))],
+        check=True,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    sources = options.files or listed.stdout.split()[:: options.every]
     for source in {test_of(source): source for source in sources}.values():
         seconds(build, source)  # builds what is missing
     found = {}

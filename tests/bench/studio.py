@@ -105,8 +105,10 @@ def main():
                     rates[pages] = rate(control, start)
             ratios.append(rates[3] / rates[0])
         low, high = interval_of_median(ratios)
-        print(f'cycles per second with three pages / with none: {statistics.median(ratios):.3f} '
-              f'(95 % interval of the median of {rounds} rounds: {low:.3f} to {high:.3f})')
+        print(
+            f'cycles per second with three pages / with none: {statistics.median(ratios):.3f} '
+            f'(95 % interval of the median of {rounds} rounds: {low:.3f} to {high:.3f})'
+        )
         shares = []
         for pages in (0, 3):
             with watched_by(pages, studio, groups):

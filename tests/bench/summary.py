@@ -46,9 +46,13 @@ def main():
             if not target["met"]:
                 verdict += f": two separate runs, side by side, gained {limit['value']:.3g}"
         print(f"{name:<84} {found['value']:10.4g} {'>=' if least else '<='} {wanted:<9g} {verdict}")
-    pathlib.Path(sys.argv[2]).write_text(json.dumps(
-        {"commit": commit(), "processor": processor(), "cores": os.cpu_count(), "load": os.getloadavg()[0],
-         "results": results, "targets": targets}, indent=1) + "\n")
+    pathlib.Path(sys.argv[2]).write_text(
+        json.dumps(
+            {"commit": commit(), "processor": processor(), "cores": os.cpu_count(), "load": os.getloadavg()[0], "results": results, "targets": targets},
+            indent=1,
+        )
+        + "\n"
+    )
     met = sum(bool(t["met"]) for t in targets)
     missing = sum(t["measured"] is None for t in targets)
     if missing:

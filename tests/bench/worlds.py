@@ -25,16 +25,25 @@ def eight_robots():
 
 def cases(folder):
     """Per world: its name, the command, and the seconds of its short and of its long run."""
-    yield "reactive_foraging in the open arena, in a corner", [
-        SYSTEMS / "reactive_foraging.iqr", "--world", SYSTEMS / "worlds" / "open_arena.world"], 60, 1260
+    yield "reactive_foraging in the open arena, in a corner", [SYSTEMS / "reactive_foraging.iqr", "--world", SYSTEMS / "worlds" / "open_arena.world"], 60, 1260
     yield "team arena, four robots", TEAM, 20, 140
     yield "team arena, filmed", TEAM + ["--video", folder / "team.gif"], 1, 11
     if not CHALLENGE.exists():
         print(f"skipped: the challenge's worlds, there is no {CHALLENGE}")
         return
     bug = CHALLENGE / "gazeboBug.iqr"
-    yield "two robots, SDIC_two_robot_arena", [bug, bug, "--lenient", "--world", CHALLENGE / "SDIC_two_robot_arena.world", "--game",
-                                               "--robot", "TeamA_Bug_01=TeamA_Bug_01", "--robot", "TeamA_Bug_01=TeamA_Bug_02"], 10, 310
+    yield "two robots, SDIC_two_robot_arena", [
+        bug,
+        bug,
+        "--lenient",
+        "--world",
+        CHALLENGE / "SDIC_two_robot_arena.world",
+        "--game",
+        "--robot",
+        "TeamA_Bug_01=TeamA_Bug_01",
+        "--robot",
+        "TeamA_Bug_01=TeamA_Bug_02",
+    ], 10, 310
     yield "eight robots, SDIC_arena", eight_robots(), 10, 110
 
 

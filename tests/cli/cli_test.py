@@ -58,17 +58,37 @@ class Run(Cli):
         header, *rows = self.table("out/trials.csv")
         rows = [dict(zip(header, row)) for row in rows]
         self.assertEqual(len(rows), 30)
-        self.assertEqual(header, ["trial", "start_x", "start_y", "start_yaw", "cycles", "smallest_distance", "outcome",
-                                  "first_cycle", "end_x", "end_y", "end_yaw", "start", "patches", "recent_success",
-                                  "discrepancy", "cue_peak", "distractor_peak", "sequences", "segments"])
+        self.assertEqual(
+            header,
+            [
+                "trial",
+                "start_x",
+                "start_y",
+                "start_yaw",
+                "cycles",
+                "smallest_distance",
+                "outcome",
+                "first_cycle",
+                "end_x",
+                "end_y",
+                "end_yaw",
+                "start",
+                "patches",
+                "recent_success",
+                "discrepancy",
+                "cue_peak",
+                "distractor_peak",
+                "sequences",
+                "segments",
+            ],
+        )
         for number, row in enumerate(rows, 1):
             self.assertEqual(int(row["trial"]), number)
             self.assertGreater(int(row["cycles"]), 20)
             self.assertEqual(row["outcome"], "target" if float(row["smallest_distance"]) < 0.45 else "missed")
             # The middle start is the world's second one; each path leads over one lower and one upper patch.
             start = round(float(row["start_x"]) / 1.5) + 2
-            self.assertEqual((int(row["start"]), row["patches"]),
-                             (start, {1: "cyan > red", 2: "blue > yellow", 3: "magenta > green"}[start]))
+            self.assertEqual((int(row["start"]), row["patches"]), (start, {1: "cyan > red", 2: "blue > yellow", 3: "magenta > green"}[start]))
             self.assertEqual(float(row["recent_success"]), sum(r["outcome"] == "target" for r in rows[:number]) / number)
             self.assertEqual({row[layer] for layer in ("discrepancy", "cue_peak", "sequences")}, {""})  # no such layers
         reached = sum(row["outcome"] == "target" for row in rows)
@@ -86,9 +106,26 @@ class Run(Cli):
 
     def test_measures_of_the_learning_layers_are_those_of_their_groups(self):
         # A group shows the values that its module writes one cycle later.
-        done = self.forage("run", PROJECT / "systems/dac_foraging.iqr", "--world", WORLD, "--trials", 25, "-o", "out", "--set",
-                           "Contextual.enableModule=true", "--set", "Contextual.Discrepancy Threshold=0.5", "--record",
-                           "Adaptive/discrepancy", "--record", "Adaptive/prototype", "--record", "Contextual/Empty")
+        done = self.forage(
+            "run",
+            PROJECT / "systems/dac_foraging.iqr",
+            "--world",
+            WORLD,
+            "--trials",
+            25,
+            "-o",
+            "out",
+            "--set",
+            "Contextual.enableModule=true",
+            "--set",
+            "Contextual.Discrepancy Threshold=0.5",
+            "--record",
+            "Adaptive/discrepancy",
+            "--record",
+            "Adaptive/prototype",
+            "--record",
+            "Contextual/Empty",
+        )
         header, *rows = self.table("out/trials.csv")
         trials = [dict(zip(header, row)) for row in rows]
         column = lambda name: [list(map(float, row[1:])) for row in self.table(f"out/{name}_act.csv")[1:]]
@@ -100,9 +137,9 @@ class Run(Cli):
             end = first + int(trial["cycles"])  # the first cycle after the trial
             self.assertEqual(float(trial["discrepancy"]), discrepancy[end][0])
             peaks = [float(trial["distractor_peak"]), float(trial["cue_peak"])]
-            self.assertEqual(max(peaks), max(max(cells) for cells in prototype[first + 1:end + 1]))
+            self.assertEqual(max(peaks), max(max(cells) for cells in prototype[first + 1 : end + 1]))
             cells = list(map(float, empty[end][1:]))
-            memory = [cells[row * 100:(row + 1) * 100] for row in range(50)]
+            memory = [cells[row * 100 : (row + 1) * 100] for row in range(50)]
             if sum(map(sum, memory)) == 0:  # closed: it has written nothing yet
                 self.assertEqual((trial["sequences"], trial["segments"]), ("0", "0"))
                 continue
@@ -176,8 +213,10 @@ class Run(Cli):
         self.assertGreater(float(end[10]), 1.57 + 0.5)
 
     def test_a_full_disk_keeps_complete_rows_and_the_other_results(self):
-        command = f'ulimit -f 100; trap "" XFSZ; exec {shlex.quote(FORAGE)} run {shlex.quote(SYSTEM)} --world {shlex.quote(WORLD)} ' \
-                  "--cycles 5000 -o out -r 'Bug/Place Cells' -r Bug/GPS"
+        command = (
+            f'ulimit -f 100; trap "" XFSZ; exec {shlex.quote(FORAGE)} run {shlex.quote(SYSTEM)} --world {shlex.quote(WORLD)} '
+            "--cycles 5000 -o out -r 'Bug/Place Cells' -r Bug/GPS"
+        )
         done = subprocess.run(["bash", "-c", command], cwd=self.here, capture_output=True, text=True, timeout=600)
         self.assertEqual(done.returncode, 1)
         self.assertIn("File too large", done.stderr)
@@ -223,9 +262,26 @@ class Run(Cli):
     def test_at_changes_a_parameter_in_exactly_one_cycle(self):
         (self.here / "small.iqr").write_text(SMALL_SYSTEM)
         (self.here / "d.csv").write_text("-1,*,out,1,2\n4,*,out,3,2\n")
-        done = self.forage("run", "small.iqr", "--cycles", 9, "--replay", "d.csv", "-r", "P/A", "-o", "out",
-                           "--schedule", "cycle 2: P/A.excGain=10", "--schedule", "P/A(1,1) > 20 && cycle > 3: P/A.excGain = 0",
-                           "--schedule", "0.28 s: P/A.excGain=0.5", "--schedule", "cycle 9: P/A.excGain=7")
+        done = self.forage(
+            "run",
+            "small.iqr",
+            "--cycles",
+            9,
+            "--replay",
+            "d.csv",
+            "-r",
+            "P/A",
+            "-o",
+            "out",
+            "--schedule",
+            "cycle 2: P/A.excGain=10",
+            "--schedule",
+            "P/A(1,1) > 20 && cycle > 3: P/A.excGain = 0",
+            "--schedule",
+            "0.28 s: P/A.excGain=0.5",
+            "--schedule",
+            "cycle 9: P/A.excGain=7",
+        )
         self.assertEqual([r[1] for r in self.table("out/P_A_act.csv")[1:]], ["1", "1", "10", "10", "10", "30", "0", "1.5", "1.5"])
         self.assertIn("in cycle 6, at P/A(1,1) > 20 && cycle > 3: P/A.excGain = 0", done.stdout)
         self.assertIn("not changed    at cycle 9: P/A.excGain=7: it never was", done.stdout)
@@ -255,14 +311,17 @@ class Run(Cli):
         self.assertEqual(a("--clamp", "P/A(1,1)=5", "--multiply", "P/A(1,1)=2", "--add", "P/A(1,1)=1")[0], [12] * 8)  # in this order: clamp, add, multiply
         settings = json.loads((self.here / "out/run.json").read_text())
         self.assertEqual((settings["clamp"], settings["multiply"]), (["P/A(1,1)=5"], ["P/A(1,1)=2"]))
-        for rows, message in (("1 2\n3\n", "p.txt:2:1: error: 1 number in a row, not 2"), ("1 2\n3 x\n\n", "p.txt:2:3: error: 'x' is not a number"),
-                              ("1 2\n3 4\n\n", "p.txt:2:1: error: a pattern ends here after 2 rows, not 1"), ("\n", "p.txt: error: there are no patterns")):
+        for rows, message in (
+            ("1 2\n3\n", "p.txt:2:1: error: 1 number in a row, not 2"),
+            ("1 2\n3 x\n\n", "p.txt:2:3: error: 'x' is not a number"),
+            ("1 2\n3 4\n\n", "p.txt:2:1: error: a pattern ends here after 2 rows, not 1"),
+            ("\n", "p.txt: error: there are no patterns"),
+        ):
             (self.here / "p.txt").write_text(rows)
             self.assertIn(message, self.forage("run", "small.iqr", "--cycles", 1, "--replay", "d.csv", "--clamp", "P/A=p.txt", status=2).stderr)
 
     def test_at_a_trial(self):
-        self.run_robot("--trials", 3, "-r", "Bug/Motor", "--schedule", "trial 3: Motor In to Motor.weight=0", "--trial-timeout", 20,
-                       status=1)
+        self.run_robot("--trials", 3, "-r", "Bug/Motor", "--schedule", "trial 3: Motor In to Motor.weight=0", "--trial-timeout", 20, status=1)
         cycle = json.loads((self.here / "out/run.json").read_text())["result"]["changes"][0]["cycle"]
         trials = self.table("out/trials.csv")[1:]
         third = int(trials[2][7])  # first_cycle
@@ -331,10 +390,11 @@ class Run(Cli):
         out = self.forage("run", "small.iqr", "--cycles", 10, "--threads", 2).stdout
         self.assertRegex(out, r"threads +1 of 2: the cycles are too short to share, or too few to measure")
         (self.here / "large.iqr").write_text(small.replace('hcount="2" vcount="1"', 'hcount="100" vcount="80"'))
-        self.assertRegex(self.forage("run", "large.iqr", "--cycles", 100, "--threads", 2).stdout,
-                         r"threads +2, which shared [1-9]\d*\.\d % of the cycles; in the others, one thread was as fast when measured")
-        self.assertRegex(self.forage("run", "large.iqr", "--cycles", 100, "--threads", 1000).stdout,
-                         r"threads +\d+ of 1000, one per core, which shared")
+        self.assertRegex(
+            self.forage("run", "large.iqr", "--cycles", 100, "--threads", 2).stdout,
+            r"threads +2, which shared [1-9]\d*\.\d % of the cycles; in the others, one thread was as fast when measured",
+        )
+        self.assertRegex(self.forage("run", "large.iqr", "--cycles", 100, "--threads", 1000).stdout, r"threads +\d+ of 1000, one per core, which shared")
 
     def test_drive_and_clamp_tables(self):
         system = self.here / "small.iqr"
@@ -350,9 +410,18 @@ class Run(Cli):
 
 class Mistakes(Cli):
     def test_usage_is_status_2_with_a_hint(self):
-        for arguments in (["rum"], ["run"], ["run", SYSTEM, "--cycles", "0"], ["run", SYSTEM, "--cycles", "5", "--trials", "2"],
-                          ["run", SYSTEM, "--seed", "x"], ["run", SYSTEM, "--seed", "-1"], ["run", SYSTEM, "--seconds", "nan"],
-                          ["run", SYSTEM, "--seconds", "-1"], ["run", SYSTEM, "--record-every", "2"], ["run", SYSTEM, "--threads", "0"]):
+        for arguments in (
+            ["rum"],
+            ["run"],
+            ["run", SYSTEM, "--cycles", "0"],
+            ["run", SYSTEM, "--cycles", "5", "--trials", "2"],
+            ["run", SYSTEM, "--seed", "x"],
+            ["run", SYSTEM, "--seed", "-1"],
+            ["run", SYSTEM, "--seconds", "nan"],
+            ["run", SYSTEM, "--seconds", "-1"],
+            ["run", SYSTEM, "--record-every", "2"],
+            ["run", SYSTEM, "--threads", "0"],
+        ):
             done = self.forage(*arguments, status=2)
             self.assertIn("error:", done.stderr)
             self.assertIn("hint:", done.stderr)
@@ -498,7 +567,10 @@ class Convert(Cli):
     def test_extract_link_embed_and_import(self):
         (self.here / "small.iqr").write_text(SMALL_SYSTEM)
         self.forage("convert", "small.iqr", "part.iqrProcess", "--extract", "P")
-        linking = SMALL_SYSTEM[: SMALL_SYSTEM.index("  <Process")] + '  <Process id="p" name="P" path="../part.iqrProcess"><DiagramIcon x="1" y="2"/></Process>\n</System>\n'
+        linking = (
+            SMALL_SYSTEM[: SMALL_SYSTEM.index("  <Process")]
+            + '  <Process id="p" name="P" path="../part.iqrProcess"><DiagramIcon x="1" y="2"/></Process>\n</System>\n'
+        )
         (self.here / "sub").mkdir()
         (self.here / "sub/linking.iqr").write_text(linking)
         self.assertIn("2 groups", self.forage("check", "sub/linking.iqr").stdout)
@@ -556,12 +628,18 @@ class Edit(Cli):
         self.assertIn("absent.json", self.forage("edit", "small.iqr", "absent.json", status=2).stderr)
         self.assertIn("absent.iqr", self.forage("edit", "absent.iqr", "[]", status=2).stderr)
         self.assertIn("error: operation 'rename': 'id' is missing\n  hint: a text", self.forage("edit", "small.iqr", '{"do": "rename"}', status=2).stderr)
-        self.assertIn("operation 'rename': 'nmae' is not a member\n  hint: did you mean 'name'", self.forage("edit", "small.iqr", '{"do": "rename", "id": "a", "nmae": "B"}', status=2).stderr)
+        self.assertIn(
+            "operation 'rename': 'nmae' is not a member\n  hint: did you mean 'name'",
+            self.forage("edit", "small.iqr", '{"do": "rename", "id": "a", "nmae": "B"}', status=2).stderr,
+        )
         self.assertIn("operation 2: ", self.forage("edit", "small.iqr", '[{"do": "add_process", "name": "Q"}, {"do": "rename"}]', status=2).stderr)
         self.assertIn("control character", self.forage("edit", "small.iqr", r'{"do": "system", "author": "a\u0000b"}', status=2).stderr)
         self.assertIn("error: ", self.forage("edit", "small.iqr", "[]", "-o", "small.iqr/x.iqr", status=2).stderr)
         self.assertIn("does not end with .iqr", self.forage("edit", "small.iqr", "[]", "-o", "small.world", status=2).stderr)
-        self.assertIn("operation 2: there is no operation", self.forage("edit", "small.iqr", '[{"do": "add_process", "name": "Q"}, {"do": "grow"}]', "-o", "absent/x.iqr", status=2).stderr)
+        self.assertIn(
+            "operation 2: there is no operation",
+            self.forage("edit", "small.iqr", '[{"do": "add_process", "name": "Q"}, {"do": "grow"}]', "-o", "absent/x.iqr", status=2).stderr,
+        )
         self.assertIn("control character", self.forage("edit", "small.iqr", r'{"do": "ports", "id": "p", "outputs": {"o\u0001": "a"}}', status=2).stderr)
         self.assertIn("a number is too large", self.forage("edit", "small.iqr", '{"do": "place", "id": "a", "x": 1e999, "y": 1}', status=2).stderr)
         with tempfile.TemporaryDirectory() as folder:
@@ -638,10 +716,11 @@ class Others(Cli):
         for system in (SYSTEM, self.awkward_system()):
             (self.here / "tables.tex").write_text(self.forage("describe", system, "--latex").stdout)
             (self.here / "paper.tex").write_text(
-                r"\documentclass{article}\usepackage[T1]{fontenc}\usepackage{longtable,booktabs,array}"
-                r"\begin{document}\input{tables}\end{document}")
-            done = subprocess.run(["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "paper.tex"], cwd=self.here,
-                                  capture_output=True, text=True, errors="replace")
+                r"\documentclass{article}\usepackage[T1]{fontenc}\usepackage{longtable,booktabs,array}" r"\begin{document}\input{tables}\end{document}"
+            )
+            done = subprocess.run(
+                ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "paper.tex"], cwd=self.here, capture_output=True, text=True, errors="replace"
+            )
             self.assertEqual(done.returncode, 0, done.stdout)
             self.assertTrue((self.here / "paper.pdf").exists())
 
@@ -663,9 +742,11 @@ class Others(Cli):
     def test_completion_knows_commands_options_and_values(self):
         script = self.here / "c.bash"
         script.write_text(self.forage("completion", "bash").stdout)
+
         def complete(*words):
             text = f"source {script}; COMP_WORDS=({' '.join(map(shlex.quote, words))}); COMP_CWORD={len(words) - 1}; _forage; echo \"${{COMPREPLY[@]}}\""
             return subprocess.run(["bash", "-c", text], cwd=self.here, capture_output=True, text=True).stdout.split()
+
         self.assertEqual(complete("forage", "de"), ["describe"])
         self.assertEqual(complete("forage", "run", "--tri"), ["--trials", "--trial-timeout"])
         self.assertEqual(complete("forage", "run", "--format", "n"), ["npy", "npz"])
@@ -706,7 +787,9 @@ class Others(Cli):
         reference = PROJECT / "docs" / "reference"
         schema, experiments = reference / "iqr.rng", reference / "experiment.rng"
         self.assertEqual(self.forage("schema").stdout, schema.read_text(), "run: forage schema > docs/reference/iqr.rng")
-        self.assertEqual(self.forage("schema", "--experiment").stdout, experiments.read_text(), "run: forage schema --experiment > docs/reference/experiment.rng")
+        self.assertEqual(
+            self.forage("schema", "--experiment").stdout, experiments.read_text(), "run: forage schema --experiment > docs/reference/experiment.rng"
+        )
         if not shutil.which("xmllint"):
             self.skipTest("xmllint is absent")
         files = [*(PROJECT / "systems").rglob("*.iqr"), *SHARED.glob("original/*/*.iqr"), *SHARED.glob("original/*/*.iqrProcess")]

@@ -124,7 +124,7 @@ def colour_detector(test, run):
     rows = run.rows("Vision/Colours")
     for trial in run.trials():
         first, cycles = int(trial["first_cycle"]), int(trial["cycles"])
-        seen = [COLOURS[row.index(max(row))] for row in rows[first:first + cycles] if max(row) > 0]
+        seen = [COLOURS[row.index(max(row))] for row in rows[first : first + cycles] if max(row) > 0]
         test.assertEqual(" > ".join(dict.fromkeys(seen)), trial["patches"])
 
 
@@ -176,7 +176,7 @@ class Cookbook(unittest.TestCase):
                 command, picture = recipes[check.__name__]
                 finished = Run(here, command + [word for source in sources for word in ("--record", source)])
                 check(self, finished)
-                drawn, = [*finished.out.glob("time_*.svg")] or [*finished.out.glob("trajectory.png")]
+                (drawn,) = [*finished.out.glob("time_*.svg")] or [*finished.out.glob("trajectory.png")]
                 pictures.check(self, drawn, PAGE.parent / "pictures" / picture, "rewrite it with FORAGE_REWRITE_EXPECTATIONS=1", REWRITE)
 
 

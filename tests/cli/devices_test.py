@@ -24,8 +24,10 @@ spec.loader.exec_module(make_pictures)
 
 def system(module, groups, parameters="", outputs=()):
     """A system of one process with a module whose outputs are groups of these sizes, in files that name `module`."""
-    cells = "".join(f'<Group id="{name}" name="{name}"><Topology><TopologyRect hcount="{w}" vcount="{h}"/></Topology>'
-                    '<Neuron name="neuronNumeric"/></Group>' for name, (w, h) in groups.items())
+    cells = "".join(
+        f'<Group id="{name}" name="{name}"><Topology><TopologyRect hcount="{w}" vcount="{h}"/></Topology>' '<Neuron name="neuronNumeric"/></Group>'
+        for name, (w, h) in groups.items()
+    )
     set_ = "".join(f'<Parameter name="{k}" value="{v}"/>' for k, v in parameters.items())
     ports = "".join(f'<XRef name="{port}" target="{name}"/>' for port, name in outputs)
     return f"""<?xml version="1.0" encoding="UTF-8"?>
@@ -47,8 +49,17 @@ class Video(Devices):
     RED = [("videoOutputRed", "A")]
 
     def small(self, size=(1, 1), outputs=RED, **parameters):
-        names = {"file": "File Name", "loop": "Loop", "step": "Step", "cycles": "Cycles Per Picture", "hsv": "HSV", "grey": "Monochrome",
-                 "name": "DeviceName", "real": "Real Time", "fps": "FPS"}
+        names = {
+            "file": "File Name",
+            "loop": "Loop",
+            "step": "Step",
+            "cycles": "Cycles Per Picture",
+            "hsv": "HSV",
+            "grey": "Monochrome",
+            "name": "DeviceName",
+            "real": "Real Time",
+            "fps": "FPS",
+        }
         self.write("moduleVideo", {name: size for _, name in outputs}, {names[k]: v for k, v in parameters.items()}, outputs)
 
     def grey_folder(self, levels, name="pictures"):
@@ -61,8 +72,7 @@ class Video(Devices):
 
     def test_pictures_are_shown_in_order_repeated_and_skipped(self):
         self.grey_folder([0, 51, 102, 153, 204])
-        shown = lambda n, **parameters: (self.small(file="pictures", **parameters),
-                                         [round(5 * row[0]) for row in self.rows("A", "--cycles", n)])[1]
+        shown = lambda n, **parameters: (self.small(file="pictures", **parameters), [round(5 * row[0]) for row in self.rows("A", "--cycles", n)])[1]
         self.assertEqual(shown(8), [0, 0, 1, 2, 3, 4, 0, 1])  # a picture is received in the cycle after
         self.assertEqual(shown(9, cycles=3), [0, 0, 0, 0, 1, 1, 1, 2, 2])
         self.assertEqual(shown(7, step=2), [0, 0, 2, 4, 0, 2, 4])
@@ -80,8 +90,7 @@ class Video(Devices):
         (self.here / "pictures").mkdir()
         (self.here / "pictures/a.png").write_bytes(make_pictures.png([[(255, 51, 0)] * 2] * 2))
         outputs = list(zip(("videoOutputRed", "videoOutputGreen", "videoOutputBlue"), "ABC"))
-        for parameters, expected in (({}, (1, 0.2, 0)), ({"hsv": "true"}, (0.2 / 6, 1, 1)),
-                                     ({"grey": "true"}, (0.299 + 0.2 * 0.587,) * 3)):
+        for parameters, expected in (({}, (1, 0.2, 0)), ({"hsv": "true"}, (0.2 / 6, 1, 1)), ({"grey": "true"}, (0.299 + 0.2 * 0.587,) * 3)):
             self.small(outputs=outputs, file="pictures", **parameters)
             for group, value in zip("ABC", expected):
                 self.assertAlmostEqual(self.rows(group, "--cycles", 2)[1][0], value)
@@ -126,22 +135,51 @@ class Video(Devices):
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_a_film_has_the_numbers_of_its_pictures(self):
-        subprocess.run(["ffmpeg", "-v", "error", "-framerate", "25", "-i", VIDEO / "noisy_disc/%03d.png", "-c:v", "ffv1", "-pix_fmt", "bgr0",
-                        self.here / "film.mkv"], check=True, stdin=subprocess.DEVNULL)
+        subprocess.run(
+            ["ffmpeg", "-v", "error", "-framerate", "25", "-i", VIDEO / "noisy_disc/%03d.png", "-c:v", "ffv1", "-pix_fmt", "bgr0", self.here / "film.mkv"],
+            check=True,
+            stdin=subprocess.DEVNULL,
+        )
+
         def of(file):
             self.small(size=(48, 36), file=file, step=3)
             return self.rows("A", "--cycles", 30)
+
         self.assertEqual(of("film.mkv"), of(VIDEO / "noisy_disc"))
         self.small(size=(12, 9), file="film.mkv")
         self.resumed("small.iqr", "--cycles", 120)
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_a_film_with_gaps_has_each_picture_once(self):
-        subprocess.run(["ffmpeg", "-v", "error", "-framerate", "25", "-i", VIDEO / "noisy_disc/%03d.png", "-vf", "setpts=N*N/25/TB", "-vsync", "vfr", "-frames:v", "5",
-                        "-c:v", "ffv1", "-pix_fmt", "bgr0", self.here / "gaps.mkv"], check=True, stdin=subprocess.DEVNULL)
+        subprocess.run(
+            [
+                "ffmpeg",
+                "-v",
+                "error",
+                "-framerate",
+                "25",
+                "-i",
+                VIDEO / "noisy_disc/%03d.png",
+                "-vf",
+                "setpts=N*N/25/TB",
+                "-vsync",
+                "vfr",
+                "-frames:v",
+                "5",
+                "-c:v",
+                "ffv1",
+                "-pix_fmt",
+                "bgr0",
+                self.here / "gaps.mkv",
+            ],
+            check=True,
+            stdin=subprocess.DEVNULL,
+        )
+
         def of(file):
             self.small(size=(48, 36), file=file, loop="false")
             return self.rows("A", "--cycles", 6)
+
         self.assertEqual(of("gaps.mkv")[:5], of(VIDEO / "noisy_disc")[:5])
 
     def test_a_decoder_that_fails_is_not_the_end_of_the_film(self):
@@ -151,8 +189,14 @@ class Video(Devices):
         program.chmod(0o755)
         (self.here / "film.mkv").write_text("")
         self.small(file="film.mkv")
-        done = subprocess.run([FORAGE, "run", "small.iqr", "--cycles", "9"], cwd=self.here, capture_output=True, text=True, timeout=600,
-                              env={**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}"})
+        done = subprocess.run(
+            [FORAGE, "run", "small.iqr", "--cycles", "9"],
+            cwd=self.here,
+            capture_output=True,
+            text=True,
+            timeout=600,
+            env={**os.environ, "PATH": f"{program.parent}:{os.environ['PATH']}"},
+        )
         self.assertRegex(done.stderr, "ffmpeg cannot read '.*film.mkv' to its end")
         self.assertEqual(done.returncode, 1)
 
@@ -170,7 +214,7 @@ class Video(Devices):
         self.small(file="pictures", real="true", fps="1000", loop="false")
         rows = [row[0] for row in self.rows("A", "--cycles", 20000)]
         self.assertEqual(rows[0], 0)
-        self.assertEqual(rows[:-1], sorted(rows[:rows.index(max(rows))]) + rows[rows.index(max(rows)):-1])  # they rise to the last
+        self.assertEqual(rows[:-1], sorted(rows[: rows.index(max(rows))]) + rows[rows.index(max(rows)) : -1])  # they rise to the last
 
     def test_what_is_missing_is_named(self):
         (self.here / "empty").mkdir()
@@ -185,16 +229,31 @@ class Video(Devices):
         self.small(file="text.mkv")
         if shutil.which("ffmpeg"):
             self.assertIn("ffmpeg finds no pictures in", self.forage("run", "small.iqr", "--cycles", 1, status=1).stderr)
-        none = subprocess.run([FORAGE, "run", "small.iqr", "--cycles", "1"], cwd=self.here, capture_output=True, text=True, timeout=600,
-                              env={**os.environ, "PATH": "/nowhere"})
+        none = subprocess.run(
+            [FORAGE, "run", "small.iqr", "--cycles", "1"], cwd=self.here, capture_output=True, text=True, timeout=600, env={**os.environ, "PATH": "/nowhere"}
+        )
         self.assertIn("the program ffmpeg is not installed (Debian and Ubuntu: apt-get install ffmpeg)", none.stderr)
         self.assertEqual(none.returncode, 2)
 
     def test_a_file_of_the_original(self):
         """The parameters and cross references that a file of the original has."""
         self.grey_folder([128])
-        original = {"DeviceName": "/dev/video0", "Input": 1, "Standard": 5, "FPS": 25, "InfoWindow": "false", "ShowOutput": "true", "imgWidth": 160,
-                    "imgHeight": 120, "Brightness": 60, "Saturation": 60, "Contrast": 60, "AutoGain": 0, "HSV": "false", "Monochrome": "true"}
+        original = {
+            "DeviceName": "/dev/video0",
+            "Input": 1,
+            "Standard": 5,
+            "FPS": 25,
+            "InfoWindow": "false",
+            "ShowOutput": "true",
+            "imgWidth": 160,
+            "imgHeight": 120,
+            "Brightness": 60,
+            "Saturation": 60,
+            "Contrast": 60,
+            "AutoGain": 0,
+            "HSV": "false",
+            "Monochrome": "true",
+        }
         outputs = list(zip(("videoOutputRed", "videoOutputGreen", "videoOutputBlue"), "ABC"))
         self.write("moduleVideo", {name: (40, 40) for name in "ABC"}, original, outputs)
         self.assertNotIn("warning", self.forage("check", "small.iqr").stderr)
@@ -213,8 +272,12 @@ A_BUTTON = 0x130
 
 
 class Gamepad(Devices):
-    EVENTS = [event(ABS, 0, 32767) + REPORT, event(ABS, 0, 0) + event(ABS, 1, -32768) + REPORT, event(KEY, A_BUTTON, 1) + REPORT,
-              event(KEY, A_BUTTON, 0) + event(ABS, 1, 0) + REPORT]
+    EVENTS = [
+        event(ABS, 0, 32767) + REPORT,
+        event(ABS, 0, 0) + event(ABS, 1, -32768) + REPORT,
+        event(KEY, A_BUTTON, 1) + REPORT,
+        event(KEY, A_BUTTON, 0) + event(ABS, 1, 0) + REPORT,
+    ]
     AXES = [[0, 1] + [0] * 6, [0, 0, 1, 0] + [0] * 4, [0, 0, 1, 0] + [0] * 4, [0] * 8]
 
     def small(self, device):
@@ -257,6 +320,7 @@ class Gamepad(Devices):
     @unittest.skipUnless(os.access("/dev/uinput", os.W_OK), "there is no /dev/uinput, which makes virtual devices")
     def test_a_virtual_device(self):
         import fcntl
+
         UI_SET_EVBIT, UI_SET_KEYBIT, UI_SET_ABSBIT, UI_DEV_CREATE = 0x40045564, 0x40045565, 0x40045567, 0x5501
         device = os.open("/dev/uinput", os.O_WRONLY)
         self.addCleanup(os.close, device)
@@ -270,8 +334,9 @@ class Gamepad(Devices):
         wait_for(lambda: any(n.startswith("event") for n in set(os.listdir("/dev/input")) - before))
         node = next(n for n in sorted(set(os.listdir("/dev/input")) - before) if n.startswith("event"))
         self.write("moduleJoystick", {"A": (2, 4), "B": (3, 1)}, {"DeviceName": f"/dev/input/{node}"}, [("JSOutput", "A"), ("Buttons", "B")])
-        process = subprocess.Popen([FORAGE, "run", "small.iqr", "--seconds", "3", "--realtime", "-q", "-o", "out", "--record", "P/A", "--record", "P/B"],
-                                   cwd=self.here)
+        process = subprocess.Popen(
+            [FORAGE, "run", "small.iqr", "--seconds", "3", "--realtime", "-q", "-o", "out", "--record", "P/A", "--record", "P/B"], cwd=self.here
+        )
         wait_for_cycles(process)
         os.write(device, event(ABS, 0, 150) + event(KEY, A_BUTTON, 1) + REPORT)
         self.assertEqual(process.wait(timeout=600), 0)

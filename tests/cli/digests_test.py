@@ -19,8 +19,14 @@ KEPT = PROJECT / "tests/data/digests.json"
 SYSTEMS = PROJECT / "systems"
 
 
-WORLDS = {"braitenberg_vehicle": "basic_arena", "colour_detector": "basic_arena", "learning_vehicle": "basic_arena", "two_robots": "two_bugs",
-          "dac_foraging": "ambiguous_arena", "reactive_foraging": "open_arena"}
+WORLDS = {
+    "braitenberg_vehicle": "basic_arena",
+    "colour_detector": "basic_arena",
+    "learning_vehicle": "basic_arena",
+    "two_robots": "two_bugs",
+    "dac_foraging": "ambiguous_arena",
+    "reactive_foraging": "open_arena",
+}
 
 
 def runs():

@@ -57,7 +57,6 @@ def written(values, of):
     mean = statistics.mean(there)
     digits = 3 if abs(mean) < 0.1 and mean else 2 if abs(mean) < 20 else 0 if abs(mean) < 200 or of == 1 else -1
 
-
     def number(v):
         return f"{round(v + 1e-9, digits):,.{max(digits, 0)}f}".replace(",", " ")
 
@@ -206,8 +205,10 @@ class Page:
             cells = [c.strip() for c in line.strip("|").split("|")]
             for cell, value in zip(cells, values):
                 self.test.assertEqual(cell.split()[0].strip("*"), value, line)
-            new = [VALUE.sub(written(numbers, len(numbers)), cell, count=1) if VALUE.match(cell) else written(numbers, len(numbers))
-                   for cell, numbers in zip(cells[sweeps:], measures.values())]
+            new = [
+                VALUE.sub(written(numbers, len(numbers)), cell, count=1) if VALUE.match(cell) else written(numbers, len(numbers))
+                for cell, numbers in zip(cells[sweeps:], measures.values())
+            ]
             self.test.assertEqual(len(new), len(cells) - sweeps, line)
             out.append("| " + " | ".join(cells[:sweeps] + new) + " |")
         return "\n".join(out)
@@ -218,7 +219,7 @@ class Page:
         out = [header, rule]
         for number, line in enumerate(lines):
             cell, *remarks = [c.strip() for c in line.strip("|").split("|")]
-            remarks = remarks[len(columns):]
+            remarks = remarks[len(columns) :]
             folder = f"forage-out/table-{number}"
             self.run(command.replace("{}", cell) + f" -o {folder}")
             trial = rows(self.here / folder / "trials.csv")[0]
@@ -246,7 +247,7 @@ class Docs(unittest.TestCase):
         for name in PAGES:
             with self.subTest(name), tempfile.TemporaryDirectory() as here:
                 page = Page(self, name, pathlib.Path(here))
-                new = MADE.sub(lambda made: made[0][:made.start("block") - made.start()] + page.remade(made), page.text)
+                new = MADE.sub(lambda made: made[0][: made.start("block") - made.start()] + page.remade(made), page.text)
                 if REWRITE:
                     page.page.write_text(page.page.read_text().replace(page.text, new))
                 else:

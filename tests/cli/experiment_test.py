@@ -127,7 +127,10 @@ class Results(Experiment):
     def test_what_a_robot_does(self):
         (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "3"))
         self.forage("experiment", "robot.xml", "-o", "without")
-        self.edit("robot.xml", "<sweep parameter=\"R", '''<measure name="path" robot="path length"/>
+        self.edit(
+            "robot.xml",
+            "<sweep parameter=\"R",
+            '''<measure name="path" robot="path length"/>
   <measure name="away" robot="displacement" of="Bug"/>
   <measure name="hits" robot="collisions"/>
   <measure name="visits" robot="target visits"/>
@@ -135,7 +138,8 @@ class Results(Experiment):
   <measure name="near" distance="all"/>
   <measure name="near at the end" distance="last 2"/>
   <measure name="brightest" maximum="max(Bug/Light)"/>
-  <sweep parameter="R''')
+  <sweep parameter="R''',
+        )
         self.forage("experiment", "robot.xml", "-o", "out")
         for row in self.rows("out/results.csv"):
             trials = self.rows(f"out/runs/{row['run']}/trials.csv")
@@ -155,11 +159,13 @@ class Results(Experiment):
             self.assertEqual((self.here / "without" / name).read_bytes(), (self.here / "out" / name).read_bytes())
 
     def test_an_exercise_may_require_what_a_robot_does(self):
-        (self.here / "robot.xml").write_text(f'''<experiment><system file="{SYSTEM}"/><world file="{WORLD}"/><length trials="2"/>
+        (self.here / "robot.xml").write_text(
+            f'''<experiment><system file="{SYSTEM}"/><world file="{WORLD}"/><length trials="2"/>
             <exercise start="{SYSTEM}">
               <require what="drives" robot="path length" of="Bug" at-least="1">no</require>
               <require what="sees" mean="max(Bug/Light)" at-least="2">It sees {{value}}.</require>
-            </exercise></experiment>''')
+            </exercise></experiment>'''
+        )
         done = self.forage("tutorial", "robot.xml", "--system", SYSTEM, status=1)
         self.assertRegex(done.stdout, r"yes  drives\n  no   sees\n       It sees 0\.\d+\.")
 
@@ -170,22 +176,25 @@ class Results(Experiment):
         self.edit("small.xml", '<sweep parameter="B to A.weight" values="1 0.5"/>', "")
         done = self.forage("experiment", "small.xml", "-o", "out")
         rows = self.rows("out/results.csv")
-        self.assertEqual([(r["run"], r["system"], r["cell"]) for r in rows],
-                         [("system-small_seed-1", "small.iqr", "18"), ("system-weak_seed-1", "other/weak.iqr", "4.5")])
+        self.assertEqual(
+            [(r["run"], r["system"], r["cell"]) for r in rows], [("system-small_seed-1", "small.iqr", "18"), ("system-weak_seed-1", "other/weak.iqr", "4.5")]
+        )
         self.assertEqual([r["system"] for r in self.rows("out/summary.csv")], ["small.iqr", "other/weak.iqr"])
         self.assertIn("other/weak.iqr", done.stdout)
         before = self.made_at("out")
         self.edit("other/weak.iqr", 'value="0.25"', 'value="0.125"')
         self.forage("experiment", "small.xml", "-o", "out")
         after = self.made_at("out")
-        self.assertEqual({name: after[name] == before[name] for name in before},
-                         {"system-small_seed-1": True, "system-weak_seed-1": False})
+        self.assertEqual({name: after[name] == before[name] for name in before}, {"system-small_seed-1": True, "system-weak_seed-1": False})
         self.assertEqual([r["cell"] for r in self.rows("out/results.csv")], ["18", "2.25"])
 
     def test_systems_that_run_together(self):
         for name, weight in (("Q", 0.5), ("R", 0.1)):
-            (self.here / f"{name}.iqr").write_text(SMALL_SYSTEM.replace('name="P"', f'name="{name}"').replace("B to A", f"{name} to A")
-                                                   .replace('value="1"/></Synapse>', f'value="{weight}"/></Synapse>'))
+            (self.here / f"{name}.iqr").write_text(
+                SMALL_SYSTEM.replace('name="P"', f'name="{name}"')
+                .replace("B to A", f"{name} to A")
+                .replace('value="1"/></Synapse>', f'value="{weight}"/></Synapse>')
+            )
         (self.here / "drive.csv").write_text("-1,P,out,2\n-1,Q,out,2\n-1,R,out,2\n")
         self.edit("small.xml", '<system file="small.iqr"/>', '<system file="small.iqr"/><system file="Q.iqr"/><set parameter="Q.file" value="drive.csv"/>')
         self.edit("small.xml", '<measure name="five"', '<measure name="q" final="Q/A(1,1)"/><measure name="five"')
@@ -193,8 +202,7 @@ class Results(Experiment):
         self.assertEqual([(r["cell"], r["q"]) for r in self.rows("out/results.csv")], [("18", "9"), ("9", "9")])
         self.edit("small.xml", '<system file="Q.iqr"/>', '<sweep systems="Q.iqr"/>')  # runs with the others
         self.forage("experiment", "small.xml", "-o", "swept")
-        self.assertEqual([(r["system"], r["cell"], r["q"]) for r in self.rows("swept/results.csv")],
-                         [("Q.iqr", "18", "9"), ("Q.iqr", "9", "9")])
+        self.assertEqual([(r["system"], r["cell"], r["q"]) for r in self.rows("swept/results.csv")], [("Q.iqr", "18", "9"), ("Q.iqr", "9", "9")])
         self.edit("small.xml", '"Q.iqr"', '"Q.iqr R.iqr"')
         said = self.forage("experiment", "small.xml", status=2).stderr
         self.assertRegex(said, r"small.xml:\d+:\d+: error: system 'R.iqr': .*'Q'")
@@ -223,18 +231,25 @@ class Results(Experiment):
         self.assertIn("error: two modules drive the robot 'Follower'", self.forage("experiment", "two.xml", status=2).stderr)
         self.assertNotEqual(self.made_at("out"), {})
         (self.here / "two.xml").write_text(text.replace('"Bug" to="Scout"', '"Bag" to="Scout"'))
-        self.assertRegex(self.forage("experiment", "two.xml", status=2).stderr,
-                         r"two.xml:6:\d+: error: bind: 'Bag=Scout': no module that is left drives a robot 'Bag'\n(.*\n)+  hint: did you mean 'Bug'")
+        self.assertRegex(
+            self.forage("experiment", "two.xml", status=2).stderr,
+            r"two.xml:6:\d+: error: bind: 'Bag=Scout': no module that is left drives a robot 'Bag'\n(.*\n)+  hint: did you mean 'Bug'",
+        )
 
     def test_values_vary_together(self):
-        self.edit("small.xml", '<sweep parameter="B to A.weight" values="1 0.5"/>', '''<together>
+        self.edit(
+            "small.xml",
+            '<sweep parameter="B to A.weight" values="1 0.5"/>',
+            '''<together>
     <sweep parameter="B to A.weight" values="1 0.5 0.5"/><sweep parameter="P/A.excGain" values="1 2 1"/>
   </together>
-  <sweep parameter="P/A.vmPrs" values="1 0"/>''')
+  <sweep parameter="P/A.vmPrs" values="1 0"/>''',
+        )
         self.forage("experiment", "small.xml", "-o", "out")
-        self.assertEqual([tuple(r[k] for k in ("B to A.weight", "P/A.excGain", "P/A.vmPrs", "cell")) for r in self.rows("out/results.csv")],
-                         [("1", "1", "1", "18"), ("1", "1", "0", "2"), ("0.5", "2", "1", "18"), ("0.5", "2", "0", "2"),
-                          ("0.5", "1", "1", "9"), ("0.5", "1", "0", "1")])
+        self.assertEqual(
+            [tuple(r[k] for k in ("B to A.weight", "P/A.excGain", "P/A.vmPrs", "cell")) for r in self.rows("out/results.csv")],
+            [("1", "1", "1", "18"), ("1", "1", "0", "2"), ("0.5", "2", "1", "18"), ("0.5", "2", "0", "2"), ("0.5", "1", "1", "9"), ("0.5", "1", "0", "1")],
+        )
         self.assertEqual(len(self.rows("out/summary.csv")), 6)
 
     def test_until_ends_a_run(self):
@@ -246,8 +261,7 @@ class Results(Experiment):
 
     def test_a_change_that_never_happens_is_told(self):
         self.edit("small.xml", "<sweep", '<at when="cycle 40" parameter="P/A.excGain" value="0"/><sweep')
-        self.assertRegex(self.forage("experiment", "small.xml", "-o", "out").stderr,
-                         r"note: in 2 of 2 runs the change at '.*cycle 40.*' never happened")
+        self.assertRegex(self.forage("experiment", "small.xml", "-o", "out").stderr, r"note: in 2 of 2 runs the change at '.*cycle 40.*' never happened")
 
     def test_a_change_over_time(self):
         self.edit("small.xml", "<sweep", '<at when="cycle 4" parameter="P/A.excGain" value="0"/><sweep')
@@ -256,8 +270,11 @@ class Results(Experiment):
 
     def test_patterns(self):
         (self.here / "p.txt").write_text("1 1\n\n3 3\n")
-        self.edit("small.xml", "<sweep", '<add group="P/A" patterns="p.txt" from="cycle 6" backwards="true" times="1"/>'
-                  '<multiply group="P/A" cells="(2,1)=10" from="cycle 9"/><sweep')
+        self.edit(
+            "small.xml",
+            "<sweep",
+            '<add group="P/A" patterns="p.txt" from="cycle 6" backwards="true" times="1"/>' '<multiply group="P/A" cells="(2,1)=10" from="cycle 9"/><sweep',
+        )
         self.forage("experiment", "small.xml", "-o", "out")
         self.assertEqual([r["end"] for r in self.rows("out/results.csv")], [f"{18 + 180}", f"{9 + 90}"])
         (self.here / "p.txt").write_text("1 1\n\n3\n")
@@ -281,12 +298,30 @@ class Results(Experiment):
 
     def test_a_run_of_an_experiment_is_the_same_as_forage_run(self):
         self.forage("experiment", "robot.xml", "-o", "out")
-        self.forage("run", SYSTEM, "--world", WORLD, "--trials", 3, "--seed", 2, "--set", "Reactive Layer/US.threshold=0.8",
-                    "--set", "Motor In to Motor.weight=0.9", "--schedule", "trial 3: Reactive Layer/US.threshold=0.5",
-                    "-r", "Bug/Motor", "--record-every", 50, "-o", "alone")
+        self.forage(
+            "run",
+            SYSTEM,
+            "--world",
+            WORLD,
+            "--trials",
+            3,
+            "--seed",
+            2,
+            "--set",
+            "Reactive Layer/US.threshold=0.8",
+            "--set",
+            "Motor In to Motor.weight=0.9",
+            "--schedule",
+            "trial 3: Reactive Layer/US.threshold=0.5",
+            "-r",
+            "Bug/Motor",
+            "--record-every",
+            50,
+            "-o",
+            "alone",
+        )
         for name in ("trials.csv", "Bug_Motor_act.csv"):
-            self.assertEqual((self.here / "alone" / name).read_bytes(),
-                             (self.here / "out/runs/threshold-0.8_weight-0.9_seed-2" / name).read_bytes())
+            self.assertEqual((self.here / "alone" / name).read_bytes(), (self.here / "out/runs/threshold-0.8_weight-0.9_seed-2" / name).read_bytes())
 
     def test_the_summary_is_computed_from_the_results(self):
         done = self.forage("experiment", "robot.xml", "-o", "out")
@@ -346,8 +381,11 @@ class Interrupted(Experiment):
         run = self.rows("out/results.csv")[1]["run"]
         (self.here / f"out/runs/{run}/trials.csv").unlink()
         said = self.forage("experiment", "robot.xml", "-o", "out", "-q", status=1).stderr
-        self.assertEqual(said, f"error: cannot read the trials of a finished run: 'out/runs/{run}/trials.csv' is missing or empty\n"
-                               f"  hint: remove 'out/runs/{run}' and start the experiment again, which repeats this run\n")
+        self.assertEqual(
+            said,
+            f"error: cannot read the trials of a finished run: 'out/runs/{run}/trials.csv' is missing or empty\n"
+            f"  hint: remove 'out/runs/{run}' and start the experiment again, which repeats this run\n",
+        )
         self.assertFalse((self.here / "out/trials.csv").exists())
         self.assertFalse((self.here / "out/trials.csv.part").exists())
         shutil.rmtree(self.here / f"out/runs/{run}")
@@ -411,8 +449,9 @@ class Interrupted(Experiment):
             self.assertEqual(pictures, {f"weight-{w}_seed-{s}" for w in (0.5, 1) for s in (1, 2)})
 
     def test_a_stopped_run_has_the_reason(self):
-        (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "3").replace('weight" values="1 0.9"', 'weight" values="0"')
-                                             .replace('trial="60"', 'trial="2"'))
+        (self.here / "robot.xml").write_text(
+            ROBOT.replace("TRIALS", "3").replace('weight" values="1 0.9"', 'weight" values="0"').replace('trial="60"', 'trial="2"')
+        )
         self.forage("experiment", "robot.xml", "-o", "out")
         for row in self.rows("out/results.csv"):
             self.assertEqual(row["status"], "stopped")
@@ -421,15 +460,17 @@ class Interrupted(Experiment):
 
 class Plots(Experiment):
     def test_every_run_draws_the_pictures_in_the_file(self):
-        text = ROBOT.replace("TRIALS", "3").replace('<measure name="never"', """<plot what="time:Bug/Light"/>
-  <plot what="space:Bug/Motor@20,40"/><plot what="trajectory"/><measure name="never\"""")
+        text = ROBOT.replace("TRIALS", "3").replace(
+            '<measure name="never"',
+            """<plot what="time:Bug/Light"/>
+  <plot what="space:Bug/Motor@20,40"/><plot what="trajectory"/><measure name="never\"""",
+        )
         (self.here / "robot.xml").write_text(re.sub(r"<sweep.*Motor In.*/>", "", text))
         self.forage("experiment", "robot.xml", "-o", "out")
         runs = sorted((self.here / "out/runs").iterdir())
         self.assertEqual(len(runs), 6)
         for run in runs:
-            self.assertEqual(sorted(p.name for p in run.glob("*.png")),
-                             ["space_Bug_Motor_20_40.png", "time_Bug_Light.png", "trajectory.png"])
+            self.assertEqual(sorted(p.name for p in run.glob("*.png")), ["space_Bug_Motor_20_40.png", "time_Bug_Light.png", "trajectory.png"])
         self.assertNotEqual((runs[0] / "time_Bug_Light.png").read_bytes(), (runs[1] / "time_Bug_Light.png").read_bytes())
         path = (runs[0] / "trajectory.png").read_bytes()
         (runs[0] / "trajectory.png").unlink()
@@ -489,7 +530,12 @@ class Plots(Experiment):
         self.assertEqual((self.here / "table/heat_m_w_7__A.x_1__A.x_3.png").read_bytes(), part)
         self.forage("plot", "table", "--where", "seed=2", "heat:m")  # one value per --where
         self.assertTrue((self.here / "table/heat_m_seed_2.png").exists())
-        for where, message in (("y=1", "no parameter 'y' was swept"), ("x=1", "'x' is ambiguous\n  hint: name one of 'A.x', 'B.x'"), ("w=9", "no run has this value"), ("w", "no run has this value")):
+        for where, message in (
+            ("y=1", "no parameter 'y' was swept"),
+            ("x=1", "'x' is ambiguous\n  hint: name one of 'A.x', 'B.x'"),
+            ("w=9", "no run has this value"),
+            ("w", "no run has this value"),
+        ):
             self.assertIn(message, self.forage("plot", "table", "heat:m", "--where", where, status=2).stderr)
         self.assertIn("--where chooses runs of an experiment", self.forage("plot", "small.iqr", "--where", "seed=1", status=2).stderr)
 
@@ -516,9 +562,11 @@ class Plots(Experiment):
     def test_a_line_of_learning_ends_with_the_trials_of_its_condition(self):
         (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "3"))
         self.forage("experiment", "robot.xml", "-o", "out")
+
         def strokes():
             self.forage("plot", "out", "learning", "--plot-format", "svg")
             return len(re.findall('fill[:=]"?none', (self.here / "out/learning.svg").read_text()))
+
         whole = strokes()
         rows = self.rows("out/results.csv")
         same = [row["run"] for row in rows if list(row.values())[1:3] == list(rows[0].values())[1:3]]
@@ -533,9 +581,11 @@ class Plots(Experiment):
     def test_unfinished_trials_are_left_out_of_a_map(self):
         self.forage("run", SYSTEM, "--world", WORLD, "--trials", 3, "-o", "run")
         table, points = (self.here / "run" / name for name in ("trials.csv", "trajectory.csv"))
+
         def drawn():
             self.forage("plot", "run", "occupancy")
             return (self.here / "run/occupancy.png").read_bytes()
+
         whole = drawn()
         end = table.read_text().splitlines()[-1]
         table.write_text(table.read_text() + re.sub("^3,", "4,", end).replace("target", "unfinished").replace("missed", "unfinished") + "\n")
@@ -578,8 +628,10 @@ class Documentation(Experiment):
         self.page = (PROJECT / "docs/reference/experiment.md").read_text()
 
     def run_with(self, elements):
-        (self.here / "systems/page.xml").write_text(f'''<experiment><system file="dac_foraging.iqr"/><world file="worlds/basic_arena.world"/>
-            <length cycles="5"/>{elements}</experiment>''')
+        (self.here / "systems/page.xml").write_text(
+            f'''<experiment><system file="dac_foraging.iqr"/><world file="worlds/basic_arena.world"/>
+            <length cycles="5"/>{elements}</experiment>'''
+        )
         self.forage("experiment", "systems/page.xml", "-q")
 
     def test_the_examples(self):
@@ -591,7 +643,8 @@ class Documentation(Experiment):
                 self.assertEqual(self.forage("experiment", "systems/page.xml", "-q").stderr, "")
             elif example.startswith("<exercise"):
                 (self.here / "systems/tutorial/page.xml").write_text(
-                    f'<experiment><system file="reflex.iqr"/><world file="../worlds/basic_arena.world"/><length trials="5"/>{example}</experiment>')
+                    f'<experiment><system file="reflex.iqr"/><world file="../worlds/basic_arena.world"/><length trials="5"/>{example}</experiment>'
+                )
                 self.forage("tutorial", "systems/tutorial/page.xml", "--system", "systems/reactive_foraging.iqr")
             else:
                 self.run_with(example)
@@ -599,18 +652,30 @@ class Documentation(Experiment):
 
     def test_the_attributes_in_tables(self):
         cells = [re.findall(r"`(.+?)`", row.split("|")[1]) for row in self.page.splitlines() if row.startswith("| `") and '="' in row.split("|")[1]]
-        texts = [t.replace("CONDITION", "cycle 3").replace("QUANTITY", "max(Bug/Light)").replace("P/A", "Bug/Light").replace("FILE", "p.txt")
-                 for row in cells for t in row if not t.startswith("<")]
+        texts = [
+            t.replace("CONDITION", "cycle 3").replace("QUANTITY", "max(Bug/Light)").replace("P/A", "Bug/Light").replace("FILE", "p.txt")
+            for row in cells
+            for t in row
+            if not t.startswith("<")
+        ]
         self.assertGreater(len(texts), 20)
         (self.here / "systems/p.txt").write_text("0 " * 32)
-        self.run_with("".join(f"<clamp {t}/>" if "group=" in t else
-                              f'<clamp group="Bug/Light" patterns="p.txt" {t}/>' if re.match("every|step|times|backwards|from|until", t) else
-                              f'<measure name="{i}" {t}/>' for i, t in enumerate(texts)))
+        self.run_with(
+            "".join(
+                f"<clamp {t}/>"
+                if "group=" in t
+                else f'<clamp group="Bug/Light" patterns="p.txt" {t}/>'
+                if re.match("every|step|times|backwards|from|until", t)
+                else f'<measure name="{i}" {t}/>'
+                for i, t in enumerate(texts)
+            )
+        )
 
 
 class Mistakes(Experiment):
     def test_all_mistakes_at_once_with_their_places(self):
-        (self.here / "robot.xml").write_text(f"""<experiment>
+        (self.here / "robot.xml").write_text(
+            f"""<experiment>
   <system file="{SYSTEM}"/>
   <world file="{WORLD}"/>
   <length trials="3"/>
@@ -620,17 +685,25 @@ class Mistakes(Experiment):
   <measure name="b" final="Bug/Light"/>
   <sweep parameter="Bug/Light.threshold" values="0 high"/>
 </experiment>
-""")
+"""
+        )
         said = self.forage("experiment", "robot.xml", status=2).stderr
-        for place, message in (("5:20", "a comparison is missing behind 'trail 3'"), ("5:33", "'x' is not a number"),
-                               ("6:19", "there is no group 'Bug/Ligth'"), ("6:43", "there is no group 'Bug/Mothor'"),
-                               ("6:74", "there is no plot 'drawing'"), ("7:47", "something is missing at its end"),
-                               ("8:28", "'Bug/Light' has 32 cells"), ("9:52", "'high' is not a number")):
+        for place, message in (
+            ("5:20", "a comparison is missing behind 'trail 3'"),
+            ("5:33", "'x' is not a number"),
+            ("6:19", "there is no group 'Bug/Ligth'"),
+            ("6:43", "there is no group 'Bug/Mothor'"),
+            ("6:74", "there is no plot 'drawing'"),
+            ("7:47", "something is missing at its end"),
+            ("8:28", "'Bug/Light' has 32 cells"),
+            ("9:52", "'high' is not a number"),
+        ):
             self.assertRegex(said, rf"robot.xml:{place}: error: .*{message}")
         self.assertFalse((self.here / "forage-out").exists())
 
     def test_mistakes_of_form(self):
-        (self.here / "robot.xml").write_text("""<experiment>
+        (self.here / "robot.xml").write_text(
+            """<experiment>
   <sytem file="small.iqr"/>
   <length cycles="10" trials="3"/>
   <seeds first="2" list="1 2"/>
@@ -638,14 +711,20 @@ class Mistakes(Experiment):
   <measure name="b" success="last"/>
   <sweep parameter="P/A.excGain" values="1 1"/>
 </experiment>
-""")
+"""
+        )
         said = self.forage("experiment", "robot.xml", status=2).stderr
         self.assertRegex(said, r"robot.xml:2:3: error: <experiment> cannot hold <sytem>")
         self.assertIn("did you mean 'system'?", said)
         self.edit("robot.xml", "sytem", "system")
         said = self.forage("experiment", "robot.xml", status=2).stderr
-        for place, message in (("3:31", "has both 'cycles' and 'trials'"), ("4:26", "both a list and a count"),
-                               ("5:3", "does not say what it is"), ("6:30", "does not name any trials"), ("7:44", "given twice")):
+        for place, message in (
+            ("3:31", "has both 'cycles' and 'trials'"),
+            ("4:26", "both a list and a count"),
+            ("5:3", "does not say what it is"),
+            ("6:30", "does not name any trials"),
+            ("7:44", "given twice"),
+        ):
             self.assertRegex(said, rf"robot.xml:{place}: error: .*{message}")
 
     def test_a_condition_that_holds_when_all_cells_are_zero_gives_a_warning(self):

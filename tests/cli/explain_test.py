@@ -33,9 +33,12 @@ class Explain(Cli):
 
     def test_the_silent_motor_of_the_exercise_is_followed_to_its_cause(self):
         said = self.forage("explain", EXERCISE, "--world", WORLD, "--seconds", 20).stdout
-        self.assertIn("Bug/Motor <- Selection/Motor In <- Selection/UR <- Selection/Approach <- Reactive Layer/Approach. "
-                      "Reactive Layer/Approach is the first silent group on the way back: its potential vm was 0.1166 at most, "
-                      "and its threshold is 0.7", said)
+        self.assertIn(
+            "Bug/Motor <- Selection/Motor In <- Selection/UR <- Selection/Approach <- Reactive Layer/Approach. "
+            "Reactive Layer/Approach is the first silent group on the way back: its potential vm was 0.1166 at most, "
+            "and its threshold is 0.7",
+            said,
+        )
         self.assertRegex(said, r"it has not moved\n")
         self.assertRegex(said, r"Reactive Layer/US +0\.\d+ +0 +0\.1166 +91\.9 %")
         self.assertRegex(said, r"  excitation +0\.\d+ +0 +0\.1166 +99\.1 %")
@@ -43,17 +46,31 @@ class Explain(Cli):
 
     def test_each_reason(self):
         said = self.explain(
-            [group("S", SPIKES), group("Low", NEURON.format(0.5)), group("Full", CLIPS), group("None", NEURON.format(0.1)),
-             group("Alone", NEURON.format(0.1)), group("After", NEURON.format(0.1)), group("Minus", NEURON.format(0.1))],
-            [connection("1", "S", "Low", WEAK), connection("2", "S", "Full", STRONG), connection("3", "S", "None", ZERO),
-             connection("4", "Alone", "After", STRONG),
-             connection("6", "S", "Minus", STRONG.replace('"3"', '"-3"')),
-             connection("5", "S", "After", WEAK).replace('"excitatory"', '"modulatory"')])
-        for note in ("nothing drives group 'P/Alone'",
-                     "P/Low was silent: its potential vm was 0.2 at most, and its threshold is 0.5",
-                     "P/None was silent: it received no excitation, although P/S was active",
-                     "P/Minus was silent: its excitation was never above 0: a weight, or the activity of a source, is negative",
-                     "P/Full was clipped: its excitation was up to 6, and vmMax keeps its potential at 1"):
+            [
+                group("S", SPIKES),
+                group("Low", NEURON.format(0.5)),
+                group("Full", CLIPS),
+                group("None", NEURON.format(0.1)),
+                group("Alone", NEURON.format(0.1)),
+                group("After", NEURON.format(0.1)),
+                group("Minus", NEURON.format(0.1)),
+            ],
+            [
+                connection("1", "S", "Low", WEAK),
+                connection("2", "S", "Full", STRONG),
+                connection("3", "S", "None", ZERO),
+                connection("4", "Alone", "After", STRONG),
+                connection("6", "S", "Minus", STRONG.replace('"3"', '"-3"')),
+                connection("5", "S", "After", WEAK).replace('"excitatory"', '"modulatory"'),
+            ],
+        )
+        for note in (
+            "nothing drives group 'P/Alone'",
+            "P/Low was silent: its potential vm was 0.2 at most, and its threshold is 0.5",
+            "P/None was silent: it received no excitation, although P/S was active",
+            "P/Minus was silent: its excitation was never above 0: a weight, or the activity of a source, is negative",
+            "P/Full was clipped: its excitation was up to 6, and vmMax keeps its potential at 1",
+        ):
             self.assertIn("- " + note, said)
         self.assertEqual(said.count("connection '5'"), 1)
         self.assertIn("warning: connection '5' has no effect: neuronLinearThreshold reads no modulatory input", said)
@@ -73,12 +90,16 @@ class Explain(Cli):
 
     def test_all_ways_back_from_a_motor_are_followed(self):
         reason = "neuronRandomSpike reads no input, and its parameters keep it silent"
-        self.assertEqual(self.ways_back([("Explore", "Tick"), ("Reflex", "Tick2"), ("Turn", "Alone")])[1:], [
-            "- P/Motor was silent, so the module of process 'P' read only zeros there: P/Motor <- P/Explore <- P/Tick. "
-            f"P/Tick is the first silent group on the way back: {reason}",
-            f"- another way back: P/Motor <- P/Reflex <- P/Tick2. P/Tick2 is the first silent group on the way back: {reason}",
-            "- another way back: P/Motor <- P/Turn <- P/Alone. P/Alone is the first silent group on the way back: "
-            "nothing drives it: no connection ends there, and no module writes to it"])
+        self.assertEqual(
+            self.ways_back([("Explore", "Tick"), ("Reflex", "Tick2"), ("Turn", "Alone")])[1:],
+            [
+                "- P/Motor was silent, so the module of process 'P' read only zeros there: P/Motor <- P/Explore <- P/Tick. "
+                f"P/Tick is the first silent group on the way back: {reason}",
+                f"- another way back: P/Motor <- P/Reflex <- P/Tick2. P/Tick2 is the first silent group on the way back: {reason}",
+                "- another way back: P/Motor <- P/Turn <- P/Alone. P/Alone is the first silent group on the way back: "
+                "nothing drives it: no connection ends there, and no module writes to it",
+            ],
+        )
         many = self.ways_back([(f"S{i}", f"Tick{i}") for i in range(8)])
         self.assertEqual(len(many), 6)
         self.assertEqual(many[-1], "- 3 other ways back from P/Motor end at other silent groups")
@@ -91,13 +112,14 @@ class Explain(Cli):
         said = drove(SYSTEM, "--trials", 10)
         self.assertRegex(said, r"^\(5,1\) straight ahead \d\d %, \(9,4\) ahead in a right turn \d %, \(1,4\) ahead in a left turn \d %, no command 1 % of")
         self.assertEqual(drove(SYSTEM, "--seconds", 2, "--clamp", "Bug/Motor(5,9)=1", "--no-noise"), "(5,9) straight back 100 % of the cycles")
-        self.assertEqual(drove(SYSTEM, "--seconds", 2, "--clamp", "Bug/Motor=0; from cycle 4", "--clamp", "Bug/Motor(2,1)=1 (3,5)=1; until cycle 4"),
-                         "(2,1) ahead in a left turn 16 %, no command 84 % of the cycles; in 16 %, several cells were equally active, "
-                         "and only their order decided which one won")
+        self.assertEqual(
+            drove(SYSTEM, "--seconds", 2, "--clamp", "Bug/Motor=0; from cycle 4", "--clamp", "Bug/Motor(2,1)=1 (3,5)=1; until cycle 4"),
+            "(2,1) ahead in a left turn 16 %, no command 84 % of the cycles; in 16 %, several cells were equally active, "
+            "and only their order decided which one won",
+        )
 
     def test_check_notes_what_is_known_without_a_run(self):
-        (self.here / "small.iqr").write_text(system([group("A", NEURON.format(0)), group("B", NEURON.format(0))],
-                                                    [connection("1", "A", "B", STRONG)]))
+        (self.here / "small.iqr").write_text(system([group("A", NEURON.format(0)), group("B", NEURON.format(0))], [connection("1", "A", "B", STRONG)]))
         self.assertIn("note: nothing drives group 'P/A'", self.forage("check", "small.iqr").stdout)
 
     def test_two_connections_of_one_name_are_noted(self):
@@ -108,8 +130,9 @@ class Explain(Cli):
     def test_groups_are_recorded_by_wildcards(self):
         (self.here / "small.iqr").write_text(system([group("A", SPIKES), group("B", NEURON.format(0))], [connection("1", "A", "B", STRONG)]))
         self.forage("run", "small.iqr", "--cycles", 3, "-r", "*", "-r", "P/*:vm", "-r", "*:excIn", "-o", "out")
-        self.assertEqual(sorted(p.name for p in (self.here / "out").glob("P_*.csv")),
-                         ["P_A_act.csv", "P_A_excIn.csv", "P_B_act.csv", "P_B_excIn.csv", "P_B_vm.csv"])
+        self.assertEqual(
+            sorted(p.name for p in (self.here / "out").glob("P_*.csv")), ["P_A_act.csv", "P_A_excIn.csv", "P_B_act.csv", "P_B_excIn.csv", "P_B_vm.csv"]
+        )
         self.assertIn("there is no group 'Q/*'", self.forage("run", "small.iqr", "-r", "Q/*", status=2).stderr)
 
 

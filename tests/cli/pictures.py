@@ -100,8 +100,12 @@ def png_difference(drawn, kept):
     sizes = [(len(rows[0]) // channels, len(rows)) for rows in (a, b)]
     if sizes[0] != sizes[1]:
         return "{} x {} pixels are drawn and not {} x {}".format(*sizes[0], *sizes[1])
-    changes = [max(abs(p - q) for p, q in zip(one[x:x + channels], other[x:x + channels]))
-               for one, other in zip(a, b) if one != other for x in range(0, len(one), channels)]
+    changes = [
+        max(abs(p - q) for p, q in zip(one[x : x + channels], other[x : x + channels]))
+        for one, other in zip(a, b)
+        if one != other
+        for x in range(0, len(one), channels)
+    ]
     count = sum(change > 0 for change in changes)
     if max(changes, default=0) > SHADE or count > EDGES * sizes[0][0] * sizes[0][1]:
         return f"{count} of {sizes[0][0]} x {sizes[0][1]} pixels differ, the most by {max(changes)} of 255"
@@ -112,15 +116,15 @@ def pixels(png):
     """The rows of a picture, bytes for each, and the number of bytes per pixel."""
     data, at = b"", 8
     while at < len(png):
-        size, kind = int.from_bytes(png[at:at + 4], "big"), png[at + 4:at + 8]
+        size, kind = int.from_bytes(png[at : at + 4], "big"), png[at + 4 : at + 8]
         if kind == b"IHDR":
-            width, channels = int.from_bytes(png[at + 8:at + 12], "big"), {0: 1, 2: 3, 4: 2, 6: 4}[png[at + 17]]
+            width, channels = int.from_bytes(png[at + 8 : at + 12], "big"), {0: 1, 2: 3, 4: 2, 6: 4}[png[at + 17]]
         if kind == b"IDAT":
-            data += png[at + 8:at + 8 + size]
+            data += png[at + 8 : at + 8 + size]
         at += 12 + size
     data, stride, rows, above = zlib.decompress(data), width * channels, [], bytes(width * channels)
     for start in range(0, len(data), stride + 1):
-        kind, row = data[start], bytearray(data[start + 1:start + 1 + stride])
+        kind, row = data[start], bytearray(data[start + 1 : start + 1 + stride])
         for i in range(stride) if kind else []:
             a, b, c = (row[i - channels], above[i], above[i - channels]) if i >= channels else (0, above[i], 0)
             near = sorted((abs(a + b - c - v), n) for n, v in enumerate((a, b, c)))[0][1] if kind == 4 else 0

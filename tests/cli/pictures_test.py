@@ -88,12 +88,23 @@ class Svg(unittest.TestCase):
     def test_every_change_is_found(self):
         changes = [
             ("0 0 651 324", "0 0 651 330"),  # the page
-            ("M 84 382", "M 84 383"), ("96.880208", "96.9"), ("L 96.880208 77.239583 ", ""), (r"(stroke-width\W+)1.6", r"\g<1>1.7"),  # a line
-            ("44.705882", "44.8"), (r"(stroke-opacity\W+)1", r"\g<1>0.5"), ("25%", "26%"), ("100%", "99%"),  # colours
-            ("M 615.375", "M 616"), ("C 615.375", "L 615.375"),  # an area
-            ("17.256", "18.256"), ("7.5 -0.5 L", "7.5 -0.6 L"),  # a letter's place and shape
-            (re.escape(IMAGE), image([[0, 255], [255, 9]])), (re.escape(IMAGE), image([[0, 255]])), (r"75, ?63", "75,64"),  # an image
-            ("L 633 190.5", "L 634 190.5"), ("L 633 286.5", "L 634 286.5"),  # the areas to which an image and a line are clipped
+            ("M 84 382", "M 84 383"),
+            ("96.880208", "96.9"),
+            ("L 96.880208 77.239583 ", ""),
+            (r"(stroke-width\W+)1.6", r"\g<1>1.7"),  # a line
+            ("44.705882", "44.8"),
+            (r"(stroke-opacity\W+)1", r"\g<1>0.5"),
+            ("25%", "26%"),
+            ("100%", "99%"),  # colours
+            ("M 615.375", "M 616"),
+            ("C 615.375", "L 615.375"),  # an area
+            ("17.256", "18.256"),
+            ("7.5 -0.5 L", "7.5 -0.6 L"),  # a letter's place and shape
+            (re.escape(IMAGE), image([[0, 255], [255, 9]])),
+            (re.escape(IMAGE), image([[0, 255]])),
+            (r"75, ?63", "75,64"),  # an image
+            ("L 633 190.5", "L 634 190.5"),
+            ("L 633 286.5", "L 634 286.5"),  # the areas to which an image and a line are clipped
         ]
         for svg, (old, new) in itertools.product((CAIRO_1_16, CAIRO_1_18), changes):
             with self.subTest(old=old[:60], new=new[:60]):

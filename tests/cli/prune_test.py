@@ -14,8 +14,7 @@ from resume_test import Stopped
 
 DAC = str(PROJECT / "systems/dac_foraging.iqr")
 # The contextual layer opens soon, and draws its memory.
-RUN = ("run", DAC, "--world", WORLD, "--seed", "3", "--set", "Contextual.enableModule=true",
-       "--set", "Contextual.Discrepancy Threshold=0.6")
+RUN = ("run", DAC, "--world", WORLD, "--seed", "3", "--set", "Contextual.enableModule=true", "--set", "Contextual.Discrepancy Threshold=0.6")
 MOTOR = ("-r", "Bug/Motor")
 DISPLAYS = ("Collector", "Distance", "Selected", "Trigger")  # Empty is read: by Filling
 
@@ -149,13 +148,15 @@ class Pruning(Stopped):
 
     def test_measures_of_an_experiment_demand_what_they_read(self):
         (self.here / "small.iqr").write_text(SMALL)
-        (self.here / "e.xml").write_text("""<experiment>
+        (self.here / "e.xml").write_text(
+            """<experiment>
   <system file="small.iqr"/>
   <length cycles="40" until="max(P/N) &gt; 1e300"/>
   <measure name="last" final="max(P/M)"/>
   <measure name="first" first="max(P/H) &gt; 1 and cycle 3"/>
 </experiment>
-""")
+"""
+        )
         self.forage("experiment", "e.xml", "-o", "out")
         row = dict(zip(*self.table("out/results.csv")))
         self.assertGreater(float(row["last"]), 0)

@@ -35,8 +35,13 @@ class Remote(Cli):
     @contextlib.contextmanager
     def running(self, *arguments, cycles=10**9):
         """A run that obeys, and a function that sends it a command and returns the lines that it prints about it."""
-        process = subprocess.Popen([FORAGE, "run", SYSTEM, "--cycles", str(cycles), "-o", "out", "--remote", "0", *map(str, arguments)],
-                                   cwd=self.here, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen(
+            [FORAGE, "run", SYSTEM, "--cycles", str(cycles), "-o", "out", "--remote", "0", *map(str, arguments)],
+            cwd=self.here,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
         with self.lasting(process), socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
             port = int(re.fullmatch(r"remote: commands are received at 127\.0\.0\.1:(\d+)\n", process.stderr.readline())[1])
 
@@ -64,8 +69,7 @@ class Remote(Cli):
             cycle = self.stopped_after_some_cycles(send)  # there is nothing to draw before the first cycle
             group = next(g for g in re.findall(r'<Group id="([^"]+)" name="([^"]+)"', SYSTEM.read_text()))
             # Nothing runs while it is stopped, so all of these are in the same cycle.
-            self.assertRegex(send(f"cmd:param;itemType:GROUP;itemName:{group[1]};paramName:probability;value:0.125"),
-                             rf"^remote: cycle {cycle}: cmd:param")
+            self.assertRegex(send(f"cmd:param;itemType:GROUP;itemName:{group[1]};paramName:probability;value:0.125"), rf"^remote: cycle {cycle}: cmd:param")
             self.assertRegex(send(f"cmd:plot;itemType:GROUP;itemID:{group[0]}"), rf"^remote: cycle {cycle}: cmd:plot")
             self.assertRegex(send("cmd:stopsampler"), rf"^remote: cycle {cycle}: cmd:stopsampler")
             self.assertRegex(send("cmd:param;itemType:GROUP;itemName:Nothing;paramName:x;value:1"), "^remote: refused .*: nothing of this type")
@@ -79,8 +83,7 @@ class Remote(Cli):
         record = self.record()
         commands = record["result"]["commands"][-6:]
         self.assertEqual([c["cycle"] for c in commands][:4], [cycle] * 4)
-        self.assertEqual([c["command"].split(";")[0] for c in commands],
-                         ["cmd:stop", "cmd:param", "cmd:plot", "cmd:stopsampler", "cmd:start", "cmd:quit"])
+        self.assertEqual([c["command"].split(";")[0] for c in commands], ["cmd:stop", "cmd:param", "cmd:plot", "cmd:stopsampler", "cmd:start", "cmd:quit"])
         pictures = [f for f in record["result"]["files"] if f.endswith(".png")]
         self.assertEqual(len(pictures), 1)
         self.assertIn(str(cycle - 1), pictures[0])
@@ -94,8 +97,23 @@ class Remote(Cli):
         self.addCleanup(receiver.close)
         receiver.bind(("127.0.0.1", 0))
         alone = self.forage("run", SYSTEM, "--cycles", 500, "--record", "*", "-o", "alone", "--hash")
-        heard = self.forage("run", SYSTEM, "--cycles", 500, "--record", "*", "-o", "heard", "--hash", "--remote", 0, "--broadcast",
-                            f"127.0.0.1:{receiver.getsockname()[1]}", "--broadcast-every", 40)
+        heard = self.forage(
+            "run",
+            SYSTEM,
+            "--cycles",
+            500,
+            "--record",
+            "*",
+            "-o",
+            "heard",
+            "--hash",
+            "--remote",
+            0,
+            "--broadcast",
+            f"127.0.0.1:{receiver.getsockname()[1]}",
+            "--broadcast-every",
+            40,
+        )
         state = lambda done: re.search(r"state +(\w+)", done.stdout)[1]
         self.assertEqual(state(alone), state(heard))
         for file in (self.here / "alone").glob("*.csv"):
@@ -122,8 +140,9 @@ class Remote(Cli):
         receiver.settimeout(600)
         id, name = re.search(r'<Group id="([^"]+)" name="([^"]+)"', SYSTEM.read_text()).groups()
         process = re.search(r'<Process id="[^"]+" name="([^"]+)"', SYSTEM.read_text())[1]
-        self.forage("run", SYSTEM, "--cycles", 3, "-o", "", "--broadcast", f"127.0.0.1:{receiver.getsockname()[1]}", "--broadcast-group",
-                    f"{process}/{name}(1,1)")
+        self.forage(
+            "run", SYSTEM, "--cycles", 3, "-o", "", "--broadcast", f"127.0.0.1:{receiver.getsockname()[1]}", "--broadcast-group", f"{process}/{name}(1,1)"
+        )
         self.assertRegex(receiver.recv(65536).decode(), rf"^{id}:[-+.e0-9]+;$")
 
     def test_a_stopped_run_ends_with_a_signal(self):

@@ -24,23 +24,58 @@ DAC = str(PROJECT / "systems/dac_foraging.iqr")
 KILLS = int(os.environ.get("FORAGE_KILLS", "10"))
 
 # All kinds of files, incomplete means, a change whose condition depends on the run, and a manipulation.
-EVERYTHING = ("run", DAC, "--world", WORLD, "--seed", "3", "--hash", "-q",
-              "-r", "Selection/Motor In", "-r", "mean:Selection/Approach=mean.csv", "-r", "Adaptive/CS:pot=cs.npy",
-              "-r", "Adaptive/Weights Display=all.npz", "-r", "Adaptive/prototype=all.npz",
-              "-r", "Adaptive/CR=layers.h5", "-r", "Adaptive/discrepancy=layers.h5", "-r", "Bug/Light=light.dat",
-              "--record-every", "7", "--record-mean",
-              "-p", "time:Adaptive/discrepancy", "-p", "space:Bug/Light@100,900", "-p", "movie:Adaptive/CS",
-              "--schedule", "max(Bug/Light) > 0.3: Adaptive.eta=0.02", "--schedule", "cycle 1000: Selection/Explore.probability=0.3",
-              "--schedule", "cycle 650: move Bug=0.5,0.5,1", "--schedule", "cycle 1500: begin_trial",
-              "--add", "Bug/Light(3,1)=0.01; every 13; from cycle 200; times 30")
+EVERYTHING = (
+    "run",
+    DAC,
+    "--world",
+    WORLD,
+    "--seed",
+    "3",
+    "--hash",
+    "-q",
+    "-r",
+    "Selection/Motor In",
+    "-r",
+    "mean:Selection/Approach=mean.csv",
+    "-r",
+    "Adaptive/CS:pot=cs.npy",
+    "-r",
+    "Adaptive/Weights Display=all.npz",
+    "-r",
+    "Adaptive/prototype=all.npz",
+    "-r",
+    "Adaptive/CR=layers.h5",
+    "-r",
+    "Adaptive/discrepancy=layers.h5",
+    "-r",
+    "Bug/Light=light.dat",
+    "--record-every",
+    "7",
+    "--record-mean",
+    "-p",
+    "time:Adaptive/discrepancy",
+    "-p",
+    "space:Bug/Light@100,900",
+    "-p",
+    "movie:Adaptive/CS",
+    "--schedule",
+    "max(Bug/Light) > 0.3: Adaptive.eta=0.02",
+    "--schedule",
+    "cycle 1000: Selection/Explore.probability=0.3",
+    "--schedule",
+    "cycle 650: move Bug=0.5,0.5,1",
+    "--schedule",
+    "cycle 1500: begin_trial",
+    "--add",
+    "Bug/Light(3,1)=0.01; every 13; from cycle 200; times 30",
+)
 
 
 class Stopped(Cli):
     """Compares a run that was stopped with one that was not."""
 
     def start(self, *arguments):
-        return subprocess.Popen([FORAGE, *map(str, arguments)], cwd=self.here, stdout=subprocess.PIPE,
-                                stderr=subprocess.PIPE, text=True)
+        return subprocess.Popen([FORAGE, *map(str, arguments)], cwd=self.here, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def end(self, process, how=None, status=0):
         """Waits for the end of a program, after a signal if one is given."""
@@ -59,6 +94,7 @@ class Stopped(Cli):
     def kill_after(self, process, checkpoint, count, fraction):
         """Kills a run that has written `count` more checkpoints, and then a fraction of the next one's cycles; returns
         whether it ran until then."""
+
         def last():
             try:
                 return (self.here / checkpoint).stat().st_ino
@@ -159,8 +195,7 @@ class Resume(Stopped):
         system, drive = self.here / "small.iqr", self.here / "drive.csv"
         system.write_text(SMALL_SYSTEM)
         drive.write_text("cycle,process,target,v0...\n0,P,out,1,2\n")
-        process = self.start("run", "small.iqr", "--replay", "drive.csv", "-r", "P/A", "--cycles", 100000, "--realtime",
-                             "--checkpoint-every", 5, "-o", "out")
+        process = self.start("run", "small.iqr", "--replay", "drive.csv", "-r", "P/A", "--cycles", 100000, "--realtime", "--checkpoint-every", 5, "-o", "out")
         self.until_there_is("out/checkpoint.previous.forage", process)
         self.kill(process)
         for path in (system, drive):
@@ -183,7 +218,7 @@ class Resume(Stopped):
         self.assertIn("needs a directory", done.stderr)
 
     def test_a_directory_that_a_run_writes_into_is_refused_to_others(self):
-        process = self.start(*EVERYTHING, "--cycles", 10 ** 7, "--checkpoint-every", 100, "-o", "out")
+        process = self.start(*EVERYTHING, "--cycles", 10**7, "--checkpoint-every", 100, "-o", "out")
         self.until_there_is("out/checkpoint.previous.forage", process)
         for again in (("resume", "out"), ("run", SYSTEM, "--world", WORLD, "--cycles", 5, "-o", "out")):
             done = self.forage(*again, status=2)
@@ -214,8 +249,22 @@ class Resume(Stopped):
 
     def test_a_changed_file_of_a_module_is_refused_unless_the_run_wrote_it(self):
         weights = self.here / "learned.weights"
-        arguments = ("run", DAC, "--world", WORLD, "--seed", 2, "--cycles", 4000, "-q", "--hash",
-                     "--set", f"Adaptive.File Name={weights}", "--schedule", "cycle 60: Adaptive.write=true")
+        arguments = (
+            "run",
+            DAC,
+            "--world",
+            WORLD,
+            "--seed",
+            2,
+            "--cycles",
+            4000,
+            "-q",
+            "--hash",
+            "--set",
+            f"Adaptive.File Name={weights}",
+            "--schedule",
+            "cycle 60: Adaptive.write=true",
+        )
         self.forage(*arguments, "-o", "through")
         whole = weights.read_bytes()
         weights.unlink()
@@ -234,11 +283,36 @@ class Resume(Stopped):
 
 # Other kinds of runs: robots that play in teams, push balls, carry them and communicate; sensors with their own rates
 # and a delay.
-TEAMS = ("run", str(PROJECT / "systems/team_a.iqr"), str(PROJECT / "systems/team_b.iqr"),
-         "--world", str(PROJECT / "systems/worlds/team_arena.world"), "--seed", 5, "--hash", "-q")
+TEAMS = (
+    "run",
+    str(PROJECT / "systems/team_a.iqr"),
+    str(PROJECT / "systems/team_b.iqr"),
+    "--world",
+    str(PROJECT / "systems/worlds/team_arena.world"),
+    "--seed",
+    5,
+    "--hash",
+    "-q",
+)
 # One robot carries a ball, and another one drives around it. Both send and receive messages.
-VOICES = ("run", "voices.iqr", "--world", "voices.world", "--seed", 7, "--hash", "-q", "-r", "Carrier/Heard",
-          "-r", "Carrier/Between the fingers=rays.npy", "-r", "Speaker/Heard", "--clamp", "Carrier/Gripper(1,1)=1; from cycle 10")
+VOICES = (
+    "run",
+    "voices.iqr",
+    "--world",
+    "voices.world",
+    "--seed",
+    7,
+    "--hash",
+    "-q",
+    "-r",
+    "Carrier/Heard",
+    "-r",
+    "Carrier/Between the fingers=rays.npy",
+    "-r",
+    "Speaker/Heard",
+    "--clamp",
+    "Carrier/Gripper(1,1)=1; from cycle 10",
+)
 RATES = ("run", SYSTEM, "--world", WORLD, "--seed", 6, "--sensor-rates", "--latency", 2, "--hash", "-q", "-r", "Bug/Light")
 
 
@@ -246,24 +320,30 @@ def voices(name):
     """The process of a robot that drives at random and sends random messages to others."""
 
     def group(short, title, width, height, neuron="neuronNumeric"):
-        return (f'<Group id="{name}.{short}" name="{title}"><Topology><TopologyRect hcount="{width}" vcount="{height}"/>'
-                f"</Topology><Neuron name=\"{neuron}\"/></Group>")
+        return (
+            f'<Group id="{name}.{short}" name="{title}"><Topology><TopologyRect hcount="{width}" vcount="{height}"/>'
+            f"</Topology><Neuron name=\"{neuron}\"/></Group>"
+        )
 
     def references(holder, **targets):
-        return (f'<XRefHolder name="{holder}">' + "".join(f'<XRef name="{port}" target="{name}.{short}"/>'
-                for port, short in targets.items()) + "</XRefHolder>")
+        return f'<XRefHolder name="{holder}">' + "".join(f'<XRef name="{port}" target="{name}.{short}"/>' for port, short in targets.items()) + "</XRefHolder>"
 
-    return (f'<Process id="{name}" name="{name}"><Module name="moduleGazeboBug"><Parameter name="device_name" value="{name}"/>'
-            '<Parameter name="comkey" value="all"/><Parameter name="gripper" value="true"/>'
-            + references("InputFromGroup", _motor="motor", _gripper="gripper", _audio_out="shout")
-            + references("OutputToGroup", _proximityGripper="rays", _audio_in="heard") + "</Module>"
-            + group("motor", "Motor", 3, 3, "neuronRandomSpike") + group("gripper", "Gripper", 1, 1)
-            + group("shout", "Shout", 6, 6, "neuronRandomSpike") + group("rays", "Between the fingers", 16, 1)
-            + group("heard", "Heard", 6, 6) + "</Process>")
+    return (
+        f'<Process id="{name}" name="{name}"><Module name="moduleGazeboBug"><Parameter name="device_name" value="{name}"/>'
+        '<Parameter name="comkey" value="all"/><Parameter name="gripper" value="true"/>'
+        + references("InputFromGroup", _motor="motor", _gripper="gripper", _audio_out="shout")
+        + references("OutputToGroup", _proximityGripper="rays", _audio_in="heard")
+        + "</Module>"
+        + group("motor", "Motor", 3, 3, "neuronRandomSpike")
+        + group("gripper", "Gripper", 1, 1)
+        + group("shout", "Shout", 6, 6, "neuronRandomSpike")
+        + group("rays", "Between the fingers", 16, 1)
+        + group("heard", "Heard", 6, 6)
+        + "</Process>"
+    )
 
 
-VOICES_SYSTEM = ('<System id="s" name="Voices" author="" date="" cylesPerSecond="25">' + voices("Carrier") + voices("Speaker")
-                 + "</System>")
+VOICES_SYSTEM = '<System id="s" name="Voices" author="" date="" cylesPerSecond="25">' + voices("Carrier") + voices("Speaker") + "</System>"
 VOICES_WORLD = """<sdf version="1.4"><world name="voices">
 <include><uri>model://grey_ground</uri></include>
 <include><name>Carrier</name><uri>model://team_a_bug</uri></include>
@@ -305,7 +385,7 @@ class Kinds(Stopped):
         self.assertGreater(len({tuple(row) for row in heard}), 100)
         rays = (self.here / "through/rays.npy").read_bytes()
         size = 8 + 16 * 8
-        rows = rays[int.from_bytes(rays[8:10], "little") + 10:]
+        rows = rays[int.from_bytes(rays[8:10], "little") + 10 :]
         middle = [struct.unpack_from("<d", rows, at + 8 + 7 * 8)[0] for at in range(0, len(rows), size)]
         held = sum(value > 0.5 for value in middle)
         self.assertGreater(held, 0.9 * len(middle))
@@ -314,8 +394,14 @@ class Kinds(Stopped):
 class Faults(Stopped):
     def limited(self, size, *arguments):
         """A run whose files cannot grow above a size. For a program this is the same as a full disk."""
-        return subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, timeout=600,
-                              preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)))
+        return subprocess.run(
+            [FORAGE, *map(str, arguments)],
+            cwd=self.here,
+            capture_output=True,
+            text=True,
+            timeout=600,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (size, size)),
+        )
 
     def test_a_full_disk_stops_the_run_and_keeps_the_written_rows(self):
         arguments = ("run", SYSTEM, "--world", WORLD, "--seconds", 600, "-r", "Bug/Light", "-q")
@@ -366,8 +452,8 @@ class Faults(Stopped):
                 kept, seen = rows(out)
                 self.assertGreater(len(kept), 100)
                 self.assertLess(len(kept), len(cycles))
-                numpy.testing.assert_array_equal(kept, cycles[:len(kept)])
-                numpy.testing.assert_array_equal(seen[:len(kept)], values[:len(kept)])
+                numpy.testing.assert_array_equal(kept, cycles[: len(kept)])
+                numpy.testing.assert_array_equal(seen[: len(kept)], values[: len(kept)])
                 self.forage("plot", self.here / out / "recording.h5", "-o", "pictures")
         finally:
             if mounted:
@@ -385,7 +471,7 @@ class Faults(Stopped):
 
     def test_a_directory_that_vanishes_stops_the_run(self):
         for arguments in ((), ("-r", "Bug/Light"), ("--checkpoint-every", 1000000)):
-            process = self.start("run", SYSTEM, "--world", WORLD, "--cycles", 10 ** 9, "-q", "-o", "out", *arguments)
+            process = self.start("run", SYSTEM, "--world", WORLD, "--cycles", 10**9, "-q", "-o", "out", *arguments)
             wait_for_cycles(process)
             shutil.rmtree(self.here / "out")
             _, err = process.communicate(timeout=600)

@@ -85,10 +85,31 @@ class Robot(unittest.TestCase):
 
     def test_groups_of_the_wrong_size_are_reported_with_the_right_size(self):
         for group, width, height, where, said, hint in [
-            ("vision.color", 28, 300, "_color", "'_color' needs the width of '_hue' and a multiple of its height; 'Vision/Color' is 28 x 300, 'Vision/Hue' 28 x 28", "make the group 28 x 336"),
+            (
+                "vision.color",
+                28,
+                300,
+                "_color",
+                "'_color' needs the width of '_hue' and a multiple of its height; 'Vision/Color' is 28 x 300, 'Vision/Hue' 28 x 28",
+                "make the group 28 x 336",
+            ),
             ("bug.motor", 10, 10, "_motor", "'Bug/Motor' is 10 x 10", "make the group 9 x 9; --lenient accepts it"),
-            ("adaptive.discrepancy", 9, 1, "descripancy", "'descripancy' needs 1 cell; 'Adaptive/discrepancy' is 9 x 1", "make the group 1 x 1; --lenient accepts it"),
-            ("adaptive.prototype", 24, 2, "prototype", "'prototype' needs the size of 'input'; 'Adaptive/prototype' is 24 x 2, 'Adaptive/CS' 2 x 24", "make the group 2 x 24"),
+            (
+                "adaptive.discrepancy",
+                9,
+                1,
+                "descripancy",
+                "'descripancy' needs 1 cell; 'Adaptive/discrepancy' is 9 x 1",
+                "make the group 1 x 1; --lenient accepts it",
+            ),
+            (
+                "adaptive.prototype",
+                24,
+                2,
+                "prototype",
+                "'prototype' needs the size of 'input'; 'Adaptive/prototype' is 24 x 2, 'Adaptive/CS' 2 x 24",
+                "make the group 2 x 24",
+            ),
             ("adaptive.weights", 9, 24, "weight display", "needs one picture of 'input' for each cell of 'condition', side by side", "make the group 18 x 24"),
             ("bug.gps", 4, 1, "_gps", "'_gps' needs 3 x 1 cells; 'Bug/GPS' is 4 x 1", "make the group 3 x 1"),
             ("bug.blue_value", 28, 27, "_image_BV", "'Bug/Red - Hue' 28 x 28", "make the group 28 x 28"),
@@ -108,7 +129,9 @@ class Robot(unittest.TestCase):
 
     def test_two_modules_that_write_to_one_group_are_reported(self):
         two = ('name="_color" target="vision.color"', 'name="_color" target="adaptive.prototype"')
-        self.assertRegex(self.check(two), r"a.iqr:\d+:\d+: error: 'prototype' writes to 'Adaptive/prototype', to which '_color' of the module of 'Vision' writes, too")
+        self.assertRegex(
+            self.check(two), r"a.iqr:\d+:\d+: error: 'prototype' writes to 'Adaptive/prototype', to which '_color' of the module of 'Vision' writes, too"
+        )
 
     def test_two_groups_of_one_name_are_a_warning(self):
         err = self.check(('id="bug.place_cells" name="Place Cells"', 'id="bug.place_cells" name="GPS"'), status=0)

@@ -34,9 +34,9 @@ def png_size(data):
     assert data[:8] == b"\x89PNG\r\n\x1a\n"
     at, size = 8, None
     while at < len(data):
-        length, kind = struct.unpack(">I4s", data[at:at + 8])
-        body = data[at + 8:at + 8 + length]
-        assert struct.unpack(">I", data[at + 8 + length:at + 12 + length])[0] == zlib.crc32(kind + body), kind
+        length, kind = struct.unpack(">I4s", data[at : at + 8])
+        body = data[at + 8 : at + 8 + length]
+        assert struct.unpack(">I", data[at + 8 + length : at + 12 + length])[0] == zlib.crc32(kind + body), kind
         if kind == b"IHDR":
             size = struct.unpack(">II", body[:8])
         at += 12 + length
@@ -45,7 +45,22 @@ def png_size(data):
 
 @unittest.skipUnless(numpy, "NumPy and h5py are absent")
 class Formats(Cli):
-    ARGUMENTS = ("--cycles", 100, "-r", "Bug/Light", "-r", "Bug/Motor:vm(4..6,1..2)", "-r", "mean:Bug/Light(1..8,1)", "--record-every", 3, "--record-from", 10, "--record-until", 90)
+    ARGUMENTS = (
+        "--cycles",
+        100,
+        "-r",
+        "Bug/Light",
+        "-r",
+        "Bug/Motor:vm(4..6,1..2)",
+        "-r",
+        "mean:Bug/Light(1..8,1)",
+        "--record-every",
+        3,
+        "--record-from",
+        10,
+        "--record-until",
+        90,
+    )
 
     def csv(self, name, out="csv"):
         return numpy.array([[float(v) for v in row] for row in self.table(f"{out}/{name}")[1:]])
@@ -116,7 +131,7 @@ class Formats(Cli):
         self.assertEqual(*(sorted((p.name, p.read_bytes()) for p in (self.here / out / "seen").iterdir()) for out in ("csv", "out")))
         self.assertEqual(len(self.forage("plot", "out/recording.npz", "-o", "all").stdout.split()), 4)  # the motors in space, too
         whole = (self.here / "out/recording.npz").read_bytes()
-        (self.here / "half.npz").write_bytes(whole[:len(whole) // 2])
+        (self.here / "half.npz").write_bytes(whole[: len(whole) // 2])
         self.assertIn("half.npz: error: this is not a recording: it is no archive", self.forage("plot", "half.npz", status=2).stderr)
         numpy.savez(self.here / "other.npz", a=numpy.zeros(3))
         self.assertIn("other.npz: error: this is not a recording: its records", self.forage("plot", "other.npz", status=2).stderr)
@@ -176,7 +191,7 @@ class Formats(Cli):
         self.assertEqual([float(v) for v in rows[9]], list(light[8]))
         array = numpy.load(self.here / "killed_npy/Bug_Light_act.npy.part")
         self.assertGreater(len(array), 10)
-        self.assertTrue((array["act"].reshape(-1, 32) == light[:len(array), 1:]).all())
+        self.assertTrue((array["act"].reshape(-1, 32) == light[: len(array), 1:]).all())
         with h5py.File(self.here / "killed_h5/recording.h5.part", swmr=True) as file:
             count = len(file["cycle"])
             self.assertGreater(count, 10)
@@ -212,7 +227,8 @@ class Formats(Cli):
 @unittest.skipUnless(numpy, "NumPy and h5py are absent")
 class Tables(Cli):
     def test_results_of_an_experiment(self):
-        (self.here / "x.xml").write_text(f"""<experiment>
+        (self.here / "x.xml").write_text(
+            f"""<experiment>
   <world file="{WORLD}"/>
   <length trials="2" longest-trial="60"/>
   <seeds count="2"/>
@@ -221,7 +237,8 @@ class Tables(Cli):
   <measure name="success" success="all"/>
   <measure name="it's light, ✓" first="max(Bug/Light) > 0.5"/>
   <measure name="seconds" first="cycle > 1000000"/>
-</experiment>""")
+</experiment>"""
+        )
         self.forage("experiment", "x.xml", "-o", "out", "--table-format", "npy", "--table-format", "hdf5")
         header, *rows = self.table("out/results.csv")
         self.assertEqual(len(rows), 8)
@@ -271,8 +288,11 @@ class Mistakes(Cli):
         self.assertEqual(list(self.here.iterdir()), [])
 
     def test_recordings_without_rows(self):
-        for arguments, hint in ((["--record-from", 9], "begin in cycle 9"), (["--record-from", 4, "--record-until", 2], "--record-until 2 is before"),
-                                (["--record-every", 7, "--record-mean"], "a mean needs all cycles")):
+        for arguments, hint in (
+            (["--record-from", 9], "begin in cycle 9"),
+            (["--record-from", 4, "--record-until", 2], "--record-until 2 is before"),
+            (["--record-every", 7, "--record-mean"], "a mean needs all cycles"),
+        ):
             for form in ("csv", "npz", "h5"):
                 done = self.run_robot("--cycles", 5, "-r", "Bug/Light", "-r", "Bug/GPS", "--format", form, *arguments)
                 self.assertIn("warning: no row was recorded of 'Bug/Light:act', 'Bug/GPS:act': the run had 5 cycles", done.stderr)
@@ -312,7 +332,9 @@ class Pictures(Cli):
 
     def test_recorded_weights_have_the_axes_of_a_connection(self):
         picture = "space:CS to Response:weight@40"
-        self.forage("run", pathlib.Path(SYSTEM).parent / "cookbook/hebbian_association.iqr", "--cycles", 50, "-p", picture, "-r", "CS to Response:weight", "-o", "out")
+        self.forage(
+            "run", pathlib.Path(SYSTEM).parent / "cookbook/hebbian_association.iqr", "--cycles", 50, "-p", picture, "-r", "CS to Response:weight", "-o", "out"
+        )
         made = next((self.here / "out").glob("space*.png"))
         self.forage("plot", "out", picture, "-o", "again")
         self.assertEqual(made.read_bytes(), (self.here / "again" / made.name).read_bytes())
@@ -320,8 +342,9 @@ class Pictures(Cli):
     def test_without_arguments_all_available_pictures_are_drawn(self):
         self.run_robot("--cycles", 50, "-r", "Bug/Light", "-r", "Bug/Place Cells")
         done = self.forage("plot", "out", "-o", "pictures")
-        self.assertEqual(done.stdout.split(), [f"pictures/{n}.png" for n in (
-            "time_Bug_Light_act", "time_Bug_Place_Cells_act", "space_Bug_Place_Cells_act", "trajectory")])
+        self.assertEqual(
+            done.stdout.split(), [f"pictures/{n}.png" for n in ("time_Bug_Light_act", "time_Bug_Place_Cells_act", "space_Bug_Place_Cells_act", "trajectory")]
+        )
         self.assertEqual(self.forage("plot", SYSTEM, "-o", "pictures").stdout, "pictures/diagram.png\n")
 
     def test_a_trajectory_is_always_drawn_and_needs_a_world(self):
@@ -389,8 +412,14 @@ class Pictures(Cli):
         system = re.sub("<Module.*</Module>", "", SMALL_SYSTEM, flags=re.DOTALL)
         (self.here / "large.iqr").write_text(system.replace('hcount="2" vcount="1"', 'hcount="100" vcount="50"'))
         most = 600 << 20
-        done = subprocess.run([FORAGE, "run", "large.iqr", "--cycles", "4000", "-p", "time:P/A", "--as", "svg", "-o", "out"], cwd=self.here, capture_output=True,
-                              text=True, timeout=600, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (most, most)))
+        done = subprocess.run(
+            [FORAGE, "run", "large.iqr", "--cycles", "4000", "-p", "time:P/A", "--as", "svg", "-o", "out"],
+            cwd=self.here,
+            capture_output=True,
+            text=True,
+            timeout=600,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (most, most)),
+        )
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertLess((self.here / "out/time_P_A.svg").stat().st_size, 10 << 20)
 

@@ -20,16 +20,39 @@ CYCLES = int(os.environ.get("FORAGE_CYCLES", "80000"))
 def variants(cycles):
     """The arguments of each kind of run. However long it is, it has as many rows and checkpoints."""
     recorded = ("-r", "Adaptive/CR", "-r", "mean:Adaptive/Weights Display=weights.npy", "--record-every", cycles // 1000, "-p", "time:Adaptive/discrepancy")
-    return {"one thread, no results": (), "four threads, recorded": ("--threads", 4, *recorded),
-            "one thread, recorded, with checkpoints": (*recorded, "--checkpoint-every", cycles // 7)}
+    return {
+        "one thread, no results": (),
+        "four threads, recorded": ("--threads", 4, *recorded),
+        "one thread, recorded, with checkpoints": (*recorded, "--checkpoint-every", cycles // 7),
+    }
 
 
 def run(cycles, name):
     """The final state of a run, the number of its trials, and the largest memory that it had, in MB."""
     with tempfile.TemporaryDirectory() as out:
         more = variants(cycles)[name]
-        process = subprocess.Popen(list(map(str, (FORAGE, "run", PROJECT / "systems/dac_foraging.iqr", "--world", PROJECT / "systems/worlds/basic_arena.world",
-                                                  "--cycles", cycles, "--hash", "-o", out if more else "", *more))), stdout=subprocess.PIPE, text=True)
+        process = subprocess.Popen(
+            list(
+                map(
+                    str,
+                    (
+                        FORAGE,
+                        "run",
+                        PROJECT / "systems/dac_foraging.iqr",
+                        "--world",
+                        PROJECT / "systems/worlds/basic_arena.world",
+                        "--cycles",
+                        cycles,
+                        "--hash",
+                        "-o",
+                        out if more else "",
+                        *more,
+                    ),
+                )
+            ),
+            stdout=subprocess.PIPE,
+            text=True,
+        )
         with process.stdout:
             text = process.stdout.read()
         _, status, usage = os.wait4(process.pid, 0)

@@ -73,10 +73,24 @@ class Refusals(unittest.TestCase):
 
     def test_messages_that_make_no_sense(self):
         page = Page(self.studio)
-        for text in ('', '{', '[]', '7', '"run"', '{}', '{"command": 7}', '{"command": "fly"}', '{"command": "set"}',
-                     '{"command": "set", "assignments": "x"}', '{"command": "subscribe", "source": "Nothing/here"}',
-                     '{"command": "step", "cycles": -1}', '{"command": "speed", "mode": "times", "value": 0}',
-                     '{"command": "layout_read", "name": "../../etc/passwd"}', '\ufffd', '{"command": "' + 'x' * 70000 + '"}'):
+        for text in (
+            '',
+            '{',
+            '[]',
+            '7',
+            '"run"',
+            '{}',
+            '{"command": 7}',
+            '{"command": "fly"}',
+            '{"command": "set"}',
+            '{"command": "set", "assignments": "x"}',
+            '{"command": "subscribe", "source": "Nothing/here"}',
+            '{"command": "step", "cycles": -1}',
+            '{"command": "speed", "mode": "times", "value": 0}',
+            '{"command": "layout_read", "name": "../../etc/passwd"}',
+            '\ufffd',
+            '{"command": "' + 'x' * 70000 + '"}',
+        ):
             before = len(page.replies)
             page.send(text)
             while len(page.replies) == before and page.receive():
@@ -116,8 +130,10 @@ class Watching(unittest.TestCase):
 
     def some_status(self):
         """Waits for five more messages of the status: as long as for fifteen frames."""
+
         def count():
             return sum(m['type'] == 'status' for m in self.page.messages)
+
         before = count()
         self.wait(lambda: count() >= before + 5)
 
@@ -258,7 +274,8 @@ class Watching(unittest.TestCase):
         def parts():
             read = self.page.do('read', source='world:parts:Bug')
             self.assertEqual(read['columns'], 11)
-            return [read['values'][11 * i:11 * i + 11] for i in range(read['rows'])]
+            return [read['values'][11 * i : 11 * i + 11] for i in range(read['rows'])]
+
         before = parts()
         self.page.do('move', robot='Bug', x=1.0, y=-1.0)
         self.page.do('step')
@@ -282,8 +299,10 @@ class Watching(unittest.TestCase):
             self.page.do('step', cycles=200)
             self.assertEqual(self.page.do('sample_stop'), {'file': file, 'rows': 40})
             self.assertFalse(self.page.ask('sample', file=file, sources=['Bug/Light'])['ok'])  # it exists
-            subprocess.run([forage, 'run', system, '--world', world, '-c', '200', '--record', 'Bug/Light=run.csv', '--every', '5',
-                            '-o', folder + '/out', '--quiet'], check=True)
+            subprocess.run(
+                [forage, 'run', system, '--world', world, '-c', '200', '--record', 'Bug/Light=run.csv', '--every', '5', '-o', folder + '/out', '--quiet'],
+                check=True,
+            )
             self.assertEqual(pathlib.Path(file).read_bytes(), pathlib.Path(folder, 'out/run.csv').read_bytes())
 
     def test_the_sampler_appends_and_numbers_its_files(self):
@@ -334,8 +353,9 @@ class Watching(unittest.TestCase):
                 self.page.acknowledge(frame.seq)
         self.assertEqual(self.page.do('digest')['cycle'], 500)
         with tempfile.TemporaryDirectory() as folder:
-            out = subprocess.run([forage, 'run', system, '--world', world, '-c', '500', '--hash', '-o', folder],
-                                 check=True, capture_output=True, text=True).stdout
+            out = subprocess.run(
+                [forage, 'run', system, '--world', world, '-c', '500', '--hash', '-o', folder], check=True, capture_output=True, text=True
+            ).stdout
         self.assertIn(self.page.do('digest')['digest'], out)
 
     def test_the_robot_is_moved(self):
@@ -382,22 +402,42 @@ class OriginalPlots(unittest.TestCase):
             connection = page.last('system')['connections'][0]
             display = lambda item, states='act;', **more: (  # noqa: E731
                 f'<StateVariableDisplays ID="1" itemID="{item}" indices="{more.get("indices", "")}">'
-                f'<Average>{more.get("average", "false")}</Average><SelectedStates>{states}</SelectedStates></StateVariableDisplays>')
+                f'<Average>{more.get("average", "false")}</Average><SelectedStates>{states}</SelectedStates></StateVariableDisplays>'
+            )
             window = lambda kind, *inside: (  # noqa: E731
-                f'<DataClient type="{kind}" ID="x"><Position x="1" y="1"/>{inside[0]}<StateVariableDisplay>{"".join(inside[1:])}</StateVariableDisplay></DataClient>\n')
-            text = ('<iqrDataManagerConfiguration>\n' + window('PlotTypeGroup', '', display(light, 'vm;'))
-                    + window('PlotTypeTime', '', display(light, indices='1;2;3;'), display(motor), display('gone'))
-                    + window('PlotTypeConnection', f'<ConnectionID>{connection["id"]}</ConnectionID>')
-                    + window('DataSampler', '<AutoStart>true</AutoStart><FileName>x.dat</FileName><SamplingRate>2</SamplingRate><TARGET_MODE>5</TARGET_MODE>',
-                             display(motor, average='true'), display(light, indices='0;2;'))
-                    + '<Window/>\n</iqrDataManagerConfiguration>\n')
+                f'<DataClient type="{kind}" ID="x"><Position x="1" y="1"/>{inside[0]}<StateVariableDisplay>{"".join(inside[1:])}</StateVariableDisplay></DataClient>\n'
+            )
+            text = (
+                '<iqrDataManagerConfiguration>\n'
+                + window('PlotTypeGroup', '', display(light, 'vm;'))
+                + window('PlotTypeTime', '', display(light, indices='1;2;3;'), display(motor), display('gone'))
+                + window('PlotTypeConnection', f'<ConnectionID>{connection["id"]}</ConnectionID>')
+                + window(
+                    'DataSampler',
+                    '<AutoStart>true</AutoStart><FileName>x.dat</FileName><SamplingRate>2</SamplingRate><TARGET_MODE>5</TARGET_MODE>',
+                    display(motor, average='true'),
+                    display(light, indices='0;2;'),
+                )
+                + '<Window/>\n</iqrDataManagerConfiguration>\n'
+            )
             made = page.do('layout_convert', file='mine.conf', text=text)['content']
-            self.assertEqual(made['plots'], [
-                {'kind': 'space', 'item': 'Bug/Light', 'state': 'vm'},
-                {'kind': 'time', 'sources': ['mean(Bug/Light:act(2..4,1))', 'mean(Bug/Motor:act)']},
-                {'kind': 'wiring', 'item': connection['name']},
-                {'kind': 'sampler', 'sources': ['mean(Bug/Motor:act)', 'Bug/Light:act(1,1)', 'Bug/Light:act(3,1)'], 'file': 'x.dat', 'every': 2,
-                 'cycles': None, 'mode': 'append', 'automatic': True}])
+            self.assertEqual(
+                made['plots'],
+                [
+                    {'kind': 'space', 'item': 'Bug/Light', 'state': 'vm'},
+                    {'kind': 'time', 'sources': ['mean(Bug/Light:act(2..4,1))', 'mean(Bug/Motor:act)']},
+                    {'kind': 'wiring', 'item': connection['name']},
+                    {
+                        'kind': 'sampler',
+                        'sources': ['mean(Bug/Motor:act)', 'Bug/Light:act(1,1)', 'Bug/Light:act(3,1)'],
+                        'file': 'x.dat',
+                        'every': 2,
+                        'cycles': None,
+                        'mode': 'append',
+                        'automatic': True,
+                    },
+                ],
+            )
             self.assertEqual([(p['file'], p['line'], p['severity']) for p in made['problems']], [('mine.conf', 6, 'warning'), ('mine.conf', 3, 'warning')])
             for plot in made['plots']:
                 for source in plot.get('sources', []):
@@ -449,9 +489,13 @@ class Editing(unittest.TestCase):
             groups = {g['path']: g['id'] for p in page.last('system')['processes'] for g in p['groups']}
             page.do('step', cycles=100)
             before = page.do('read', source='Bug/Light')
-            page.do('edit', operations=[
-                {'do': 'add_group', 'process': page.last('system')['processes'][0]['id'], 'name': 'New', 'x': 5, 'y': 5, 'id': 'new'},
-                {'do': 'add_connection', 'source': groups['Bug/Light'], 'target': 'new', 'kind': 'excitatory'}])
+            page.do(
+                'edit',
+                operations=[
+                    {'do': 'add_group', 'process': page.last('system')['processes'][0]['id'], 'name': 'New', 'x': 5, 'y': 5, 'id': 'new'},
+                    {'do': 'add_connection', 'source': groups['Bug/Light'], 'target': 'new', 'kind': 'excitatory'},
+                ],
+            )
             self.assertEqual(page.do('digest')['cycle'], 100)
             self.assertEqual(page.do('read', source='Bug/Light'), before)
             self.assertTrue(page.last('document')['running_is_current'])
@@ -497,7 +541,7 @@ class Editing(unittest.TestCase):
         self.mine.write_text(sound.replace('</Process>', '</Proces>', 1))
         checked = subprocess.run([forage, 'check', str(self.mine), '--world', world], capture_output=True, text=True)
         self.assertEqual(checked.returncode, 2)
-        mistakes = checked.stderr[:checked.stderr.rindex(f'{self.mine}:')]  # without the counts at the end
+        mistakes = checked.stderr[: checked.stderr.rindex(f'{self.mine}:')]  # without the counts at the end
         with Studio(forage, str(self.mine), '--world', world, state=self.folder.name) as studio:
             page = Page(studio)
             page.do('pause')
@@ -635,7 +679,13 @@ class Crashes(unittest.TestCase):
                 self.assertEqual(shipped.read_bytes(), before)
                 self.kill(studio, page)
             # Which systems have sessions is said where there is none of this one.
-            tried = subprocess.run([forage, 'studio', str(mine), '--world', world, '--recover'], capture_output=True, text=True, timeout=600, env={**os.environ, 'XDG_STATE_HOME': self.state})
+            tried = subprocess.run(
+                [forage, 'studio', str(mine), '--world', world, '--recover'],
+                capture_output=True,
+                text=True,
+                timeout=600,
+                env={**os.environ, 'XDG_STATE_HOME': self.state},
+            )
             self.assertRegex(tried.stderr, r"no session of '.*mine\.iqr' was killed\n.*explore\.iqr")
             self.assertEqual(tried.returncode, 2)
             with Studio(forage, str(shipped), '--world', world, '--recover', state=self.state) as studio:

@@ -51,10 +51,12 @@ def topology(size):
 
 def system(a, b, connection):
     """A system with the groups A and B and a connection between them."""
-    groups = "".join(f'<Group id="{name.lower()}" name="{name}"><Topology>{topology(size)}</Topology>'
-                     '<Neuron name="neuronRandomSpike"/></Group>' if name == "A" else
-                     f'<Group id="{name.lower()}" name="{name}"><Topology>{topology(size)}</Topology>'
-                     '<Neuron name="neuronLinearThreshold"/></Group>' for name, size in (("A", a), ("B", b)))
+    groups = "".join(
+        f'<Group id="{name.lower()}" name="{name}"><Topology>{topology(size)}</Topology>' '<Neuron name="neuronRandomSpike"/></Group>'
+        if name == "A"
+        else f'<Group id="{name.lower()}" name="{name}"><Topology>{topology(size)}</Topology>' '<Neuron name="neuronLinearThreshold"/></Group>'
+        for name, size in (("A", a), ("B", b))
+    )
     return f'<System id="s" name="Example"><Process id="p" name="P">{groups}</Process>{connection}</System>'
 
 
@@ -107,14 +109,16 @@ class Reference(unittest.TestCase):
                 (self.here / "x.iqr").write_text(system(a, b, connection))
                 self.forage("check", "x.iqr")
                 self.forage("run", "x.iqr", "--cycles", "3", "-o", name)
-                drawn, = self.forage("plot", "x.iqr", (plot or "wiring") + ":c", "--plot-format", "svg", "-o", "drawn").split("\n")[:1]
+                (drawn,) = self.forage("plot", "x.iqr", (plot or "wiring") + ":c", "--plot-format", "svg", "-o", "drawn").split("\n")[:1]
                 pictures.check(self, self.here / drawn, PICTURES / f"{name}.svg", REMEDY, REWRITE)
         shown = re.findall(r"\]\(system-file/(\w+)\.svg\)", page)
         self.assertEqual(sorted(shown), sorted(e[0] for e in examples))
         self.assertEqual(sorted(p.stem for p in PICTURES.iterdir()), sorted(shown))
 
     def test_groups_that_are_too_large_for_a_wiring_plot_are_refused(self):
-        (self.here / "x.iqr").write_text(system("100x100", "100x100", '<Connection id="c" name="C" source="a" target="b"><Synapse name="synapseFixedWeight"/></Connection>'))
+        (self.here / "x.iqr").write_text(
+            system("100x100", "100x100", '<Connection id="c" name="C" source="a" target="b"><Synapse name="synapseFixedWeight"/></Connection>')
+        )
         done = subprocess.run([FORAGE, "plot", "x.iqr", "wiring:C"], cwd=self.here, capture_output=True, text=True, timeout=600)
         self.assertEqual(done.returncode, 2)
         self.assertIn("too large for a wiring plot; draw 'connection:C'", done.stderr)
@@ -128,15 +132,25 @@ class Reference(unittest.TestCase):
             used = {i: v for i, v in inputs.items() if i in text}
             states = sorted(set(re.findall(r"(\w+) = ", text)))
             parameters = "".join(f'<Parameter name="{n}" value="{str(v).lower()}"/>' for n, v in SETTINGS[name].items())
-            groups = "".join(f'<Group id="{g}" name="{g}"><Topology><TopologyRect hcount="4" vcount="1"/></Topology><Neuron name="neuronRandomSpike">'
-                             f'<Parameter name="probability" value="0.5"/><Parameter name="spkAmpl" value="{a}"/></Neuron></Group>' for g, _, a in used.values())
+            groups = "".join(
+                f'<Group id="{g}" name="{g}"><Topology><TopologyRect hcount="4" vcount="1"/></Topology><Neuron name="neuronRandomSpike">'
+                f'<Parameter name="probability" value="0.5"/><Parameter name="spkAmpl" value="{a}"/></Neuron></Group>'
+                for g, _, a in used.values()
+            )
             cells = f'<Group id="x" name="X"><Topology><TopologyRect hcount="4" vcount="1"/></Topology><Neuron name="{name}">{parameters}</Neuron></Group>'
-            connections = "".join(f'<Connection id="{g}-x" name="{g}" type="{kind}" source="{g}" target="x"><Synapse name="synapseFixedWeight"/></Connection>'
-                                  for g, kind, _ in used.values())
+            connections = "".join(
+                f'<Connection id="{g}-x" name="{g}" type="{kind}" source="{g}" target="x"><Synapse name="synapseFixedWeight"/></Connection>'
+                for g, kind, _ in used.values()
+            )
             (self.here / "x.iqr").write_text(f'<System id="s" name="S"><Process id="p" name="P">{groups}{cells}</Process>{connections}</System>')
             sources = [f"P/X:{state}" for state in states] + [f"P/{g}:act" for g, _, _ in used.values()]
-            run = subprocess.run([FORAGE, "run", "x.iqr", "--cycles", "40", "-o", name, *(w for s in sources for w in ("--record", s))],
-                                 cwd=self.here, capture_output=True, text=True, timeout=600)
+            run = subprocess.run(
+                [FORAGE, "run", "x.iqr", "--cycles", "40", "-o", name, *(w for s in sources for w in ("--record", s))],
+                cwd=self.here,
+                capture_output=True,
+                text=True,
+                timeout=600,
+            )
             self.assertEqual(run.returncode, 0, run.stderr)  # a warning says that spkAmpl divides the reset
 
             def recorded(source):
@@ -156,12 +170,21 @@ class Reference(unittest.TestCase):
     def test_elements_may_be_left_out_as_the_page_says(self):
         """A system in which everything is left out means the same as one in which everything is written."""
         terse = system("6x6", "3x3", '<Connection id="c" name="C" source="a" target="b"><Synapse name="synapseFixedWeight"/></Connection>')
-        written = system("6x6", "3x3", '<Connection id="c" name="C" source="a" target="b">'
-                         + "".join(f"<{element}>{form}</{element}>" for element, form in (
-                             ("Pattern", '<PatternMapped type="center"><All/><All/></PatternMapped>'),
-                             ("Arborization", '<ArbRect width="1" height="1" direction="RF" initialization_probability="1"/>'),
-                             ("AttenuationFunction", '<FunUniform value="0"/>'), ("DelayFunction", '<FunUniform value="0"/>')))
-                         + '<Synapse name="synapseFixedWeight"/></Connection>')
+        written = system(
+            "6x6",
+            "3x3",
+            '<Connection id="c" name="C" source="a" target="b">'
+            + "".join(
+                f"<{element}>{form}</{element}>"
+                for element, form in (
+                    ("Pattern", '<PatternMapped type="center"><All/><All/></PatternMapped>'),
+                    ("Arborization", '<ArbRect width="1" height="1" direction="RF" initialization_probability="1"/>'),
+                    ("AttenuationFunction", '<FunUniform value="0"/>'),
+                    ("DelayFunction", '<FunUniform value="0"/>'),
+                )
+            )
+            + '<Synapse name="synapseFixedWeight"/></Connection>',
+        )
         digests = []
         for name, text in (("terse", terse), ("written", written)):
             (self.here / f"{name}.iqr").write_text(text)

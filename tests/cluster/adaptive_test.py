@@ -17,8 +17,12 @@ from support import FORAGE, KILLS, PROJECT, ExperimentTest
 
 CONFIDENCE = '<confidence measure="length" width="0.5" most="20"/>'
 HALVING = '<halving measure="length" keep="lowest"/>'
-T = {n: t for n, t in enumerate((12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131, 2.120, 2.110,
-                                 2.101, 2.093), 2)}  # by the number of seeds
+T = {
+    n: t
+    for n, t in enumerate(
+        (12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306, 2.262, 2.228, 2.201, 2.179, 2.160, 2.145, 2.131, 2.120, 2.110, 2.101, 2.093), 2
+    )
+}  # by the number of seeds
 
 
 class Adaptive(ExperimentTest):

@@ -77,8 +77,9 @@ class Learning(ExperimentTest):
     @unittest.skipUnless(MPI and shutil.which("mpirun"), "forage-mpi is not built: apt-get install libopenmpi-dev openmpi-bin")
     def test_mpi(self):
         for name in NAMES:
-            subprocess.run(["mpirun", "-n", "3", MPI, f"{name}.xml", "-o", f"mpi_{name}", "-q"], cwd=self.folder, check=True,
-                           env={**os.environ, **MPI_ENVIRONMENT})
+            subprocess.run(
+                ["mpirun", "-n", "3", MPI, f"{name}.xml", "-o", f"mpi_{name}", "-q"], cwd=self.folder, check=True, env={**os.environ, **MPI_ENVIRONMENT}
+            )
         self.same("mpi")
 
     @unittest.skipUnless(PYTHON, "the Python package is not built")

@@ -20,8 +20,15 @@ class Mpi(ExperimentTest):
         self.write(seeds=20, trials=1)
 
     def start(self, ranks, *arguments):
-        return subprocess.Popen(["mpirun", "-n", str(ranks), MPI, *arguments], cwd=self.folder, env={**os.environ, **MPI_ENVIRONMENT}, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
-                                start_new_session=True)
+        return subprocess.Popen(
+            ["mpirun", "-n", str(ranks), MPI, *arguments],
+            cwd=self.folder,
+            env={**os.environ, **MPI_ENVIRONMENT},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
 
     def ranks_of(self, mpirun):
         """The processes of forage-mpi that this mpirun has started."""

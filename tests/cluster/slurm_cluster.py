@@ -67,8 +67,17 @@ class Cluster:
         key.chmod(0o600)
         for name in ("state", "spool.n1", "spool.n2", "spool.n3"):
             (folder / name).mkdir()
-        self.start("munged", "munged", "-F", "--force", f"--key-file={key}", f"--socket={folder}/munge.socket", f"--pid-file={folder}/munged.pid",
-                   f"--log-file={folder}/munged.log", f"--seed-file={folder}/seed")
+        self.start(
+            "munged",
+            "munged",
+            "-F",
+            "--force",
+            f"--key-file={key}",
+            f"--socket={folder}/munge.socket",
+            f"--pid-file={folder}/munged.pid",
+            f"--log-file={folder}/munged.log",
+            f"--seed-file={folder}/seed",
+        )
         wait_for((folder / "munge.socket").exists)
         self.start("slurmctld", "slurmctld", "-D", "-c")
         for node in ("n1", "n2", "n3"):

@@ -18,8 +18,12 @@ PROJECT = pathlib.Path(sys.argv[2]).resolve()
 MPI = os.environ.get("FORAGE_MPI", "")
 PYTHON = [sys.executable, os.environ["FORAGE_PYTHON"]] if os.environ.get("FORAGE_PYTHON") else []
 # Open MPI starts more ranks than there are cores, also for root, and without ssh.
-MPI_ENVIRONMENT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1",
-                   "OMPI_MCA_plm_rsh_agent": "false"}
+MPI_ENVIRONMENT = {
+    "OMPI_ALLOW_RUN_AS_ROOT": "1",
+    "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+    "OMPI_MCA_rmaps_base_oversubscribe": "1",
+    "OMPI_MCA_plm_rsh_agent": "false",
+}
 KILLS = int(os.environ.get("FORAGE_KILLS", "0"))  # as many kills as wanted; without it, a few
 
 EXPERIMENT = f"""<experiment>

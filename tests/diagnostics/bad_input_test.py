@@ -213,8 +213,11 @@ class BadInput(unittest.TestCase):
 
     def test_cases_without_their_mistake_are_accepted(self):
         """Checks that the cases without their mistake are accepted; otherwise they would prove nothing."""
-        self.each("sound", {" ".join(arguments): lambda _, words=arguments: made_input.Case(words) for arguments in SOUND},
-                  lambda _, done: self.assertEqual((done.status, done.said), (0, "")))
+        self.each(
+            "sound",
+            {" ".join(arguments): lambda _, words=arguments: made_input.Case(words) for arguments in SOUND},
+            lambda _, done: self.assertEqual((done.status, done.said), (0, "")),
+        )
 
     @classmethod
     def tearDownClass(cls):

@@ -37,8 +37,15 @@ def command(kind, file):
 
 
 SYSTEM = '<System id="s" name="S" author="" date="" cylesPerSecond="0">'
-SOUND = {"system": "system.iqr", "world": "world.world", "experiment": "experiment.xml", "clamp": "table.csv",
-         "drive": "table.csv", "patterns": "patterns.txt", "weights": "weights.weights"}
+SOUND = {
+    "system": "system.iqr",
+    "world": "world.world",
+    "experiment": "experiment.xml",
+    "clamp": "table.csv",
+    "drive": "table.csv",
+    "patterns": "patterns.txt",
+    "weights": "weights.weights",
+}
 ENDING = {"system": ".iqr", "world": ".world", "experiment": ".xml", "recording": ".csv"}
 
 
@@ -137,8 +144,20 @@ for name, made in {
     "world_with_a_pose_of_a_megabyte": ("world", WORLD, '<model name="m"><pose>', ("0 ", M // 2), '</pose><link name="l"/></model></world></sdf>'),
     "world_with_a_uri_of_a_megabyte": ("world", WORLD, "<include><uri>model://", ("x", M), "</uri></include></world></sdf>"),
     "experiment_nested_a_million_deep": ("experiment", "<experiment>", ("<note>", M)),
-    "experiment_with_a_condition_nested_very_deeply": ("experiment", EXPERIMENT, '<at when="', ("(", M), 'cycle 1" parameter="P/A.threshold" value="1"/></experiment>'),
-    "experiment_with_a_condition_of_a_million_parts": ("experiment", EXPERIMENT, '<at when="', ("cycle 1 or ", M), 'cycle 1" parameter="P/A.threshold" value="1"/></experiment>'),
+    "experiment_with_a_condition_nested_very_deeply": (
+        "experiment",
+        EXPERIMENT,
+        '<at when="',
+        ("(", M),
+        'cycle 1" parameter="P/A.threshold" value="1"/></experiment>',
+    ),
+    "experiment_with_a_condition_of_a_million_parts": (
+        "experiment",
+        EXPERIMENT,
+        '<at when="',
+        ("cycle 1 or ", M),
+        'cycle 1" parameter="P/A.threshold" value="1"/></experiment>',
+    ),
     "experiment_with_a_million_seeds": ("experiment", EXPERIMENT, '<seeds list="', ("1 ", M), '"/></experiment>'),
     "experiment_with_a_million_bad_seeds": ("experiment", EXPERIMENT, '<seeds list="', ("x ", M), '"/></experiment>'),
     "experiment_with_ten_thousand_cells_outside": ("experiment", EXPERIMENT, '<clamp group="P/A" cells="', ("(9,9)=1 ", 10_000), '"/></experiment>'),

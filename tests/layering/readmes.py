@@ -17,7 +17,11 @@ LINK = re.compile(r'\]\((?!https?:)([^)#]+)')
 def rooms(root):
     """The folders that must have a README.md: the rooms, and those of bug_interface; those of tools/api share one."""
     below = (f'bug_interface/{f.name}' for f in (root / 'bug_interface').iterdir() if f.is_dir())
-    return sorted({room for room in layering.ROOMS if room != 'tools' and not room.startswith('tools/api/')} | set(below) | {'tools', 'tools/forage', 'tools/studio/web', 'tests', 'systems'})
+    return sorted(
+        {room for room in layering.ROOMS if room != 'tools' and not room.startswith('tools/api/')}
+        | set(below)
+        | {'tools', 'tools/forage', 'tools/studio/web', 'tests', 'systems'}
+    )
 
 
 def faults_of(root, room):

@@ -24,8 +24,7 @@ BLOCK = re.compile(r"(?:^(?P<lead>(?!```)[^\n]*)\n\n)?^```(?P<language>\w+)\n(?P
 
 
 def run(command, here, environment=None, status=0):
-    done = subprocess.run(command, shell=isinstance(command, str), cwd=here, env=environment, capture_output=True,
-                          text=True, timeout=600)
+    done = subprocess.run(command, shell=isinstance(command, str), cwd=here, env=environment, capture_output=True, text=True, timeout=600)
     if done.returncode != status:
         raise AssertionError(f"{command}: {done.returncode}\n{done.stdout}{done.stderr}")
     return done.stdout
@@ -41,8 +40,7 @@ class HowTo(unittest.TestCase):
         for name in ("forage", "forage-dev"):
             run(["dpkg-deb", "-x", cls.packages[name], cls.folder / "root"], cls.folder)
         prefix = cls.folder / "root/usr"
-        cls.environment = {"PATH": f"{prefix}/bin:/usr/local/bin:/usr/bin:/bin", "HOME": str(cls.folder),
-                           "CMAKE_PREFIX_PATH": str(prefix), "LANG": "C.UTF-8"}
+        cls.environment = {"PATH": f"{prefix}/bin:/usr/local/bin:/usr/bin:/bin", "HOME": str(cls.folder), "CMAKE_PREFIX_PATH": str(prefix), "LANG": "C.UTF-8"}
 
     @classmethod
     def pack(cls, name):
@@ -104,24 +102,30 @@ class HowTo(unittest.TestCase):
         self.fails_with_other_numbers(self.folder / "write-a-neuron/leaky")
 
     def test_a_member_of_an_unsupported_type_gives_one_error(self):
-        for wrong, message in (('s.param("rates", &Wrong::rates)', "a parameter is a bool, double, int or std::string"),
-                               ('s.state("small", &Cell::small, "Small")', "a state is a double")):
+        for wrong, message in (
+            ('s.param("rates", &Wrong::rates)', "a parameter is a bool, double, int or std::string"),
+            ('s.state("small", &Cell::small, "Small")', "a state is a double"),
+        ):
             with self.subTest(message):
                 self.refused(wrong, message)
 
     def refused(self, wrong, message):
-        (self.folder / "wrong.cpp").write_text("""#include <forage/plugin.h>
+        (self.folder / "wrong.cpp").write_text(
+            """#include <forage/plugin.h>
 struct Wrong {
     std::vector<double> rates;
     struct Cell { double act = 0; float small = 0; };
     static void describe(forage::NeuronSpec<Wrong>& s) {
         s.name("neuronWrong", "Wrong").output("act", &Cell::act, "Activity");
-        """ + wrong + """;
+        """
+            + wrong
+            + """;
     }
     void update(Cell&, const forage::Input&) const {}
 };
 FORAGE_PLUGIN(Wrong);
-""")
+"""
+        )
         done = subprocess.run(["forage", "build-plugin", "wrong.cpp"], cwd=self.folder, env=self.environment, capture_output=True, text=True)
         self.assertEqual(re.findall(r"error: (static assertion failed: )?(.*)", done.stderr)[0][1], message)
         self.assertEqual(done.stderr.count("error: "), 2, done.stderr)  # the compiler's, and "does not compile"
@@ -156,8 +160,7 @@ FORAGE_PLUGIN(Wrong);
 
     def test_shipped_files_are_found_from_the_package(self):
         systems = self.folder / "root/usr/share/forage/systems"
-        run(f"forage run {systems}/reactive_foraging.iqr --world {systems}/worlds/basic_arena.world --trials 1",
-            self.folder, self.environment)
+        run(f"forage run {systems}/reactive_foraging.iqr --world {systems}/worlds/basic_arena.world --trials 1", self.folder, self.environment)
         self.assertIn("1.1 ", run("forage tutorial", self.folder, self.environment))
 
     def test_the_packages_depend_on_what_they_need_and_hold_no_path_of_the_build(self):

@@ -25,18 +25,27 @@ BROKEN = pathlib.Path(sys.argv[2]).resolve() / "broken"
 CORPUS = {
     "another_each_time": (r"'neuronAnotherEachTime' that does not work: it computes other numbers when it starts again", ""),
     "default_outside": (r"'neuronDefaultOutside' that does not work: its parameter 'rate' is 5 by default, outside its own range 0 to 1", ""),
-    "reads_modulation": (r"'neuronReadsModulation' that does not work: its update\(\) reads the modulatory input, and its describe\(\) does not "
-                         r"declare reads\(InputKind::modulatory\)", ""),
+    "reads_modulation": (
+        r"'neuronReadsModulation' that does not work: its update\(\) reads the modulatory input, and its describe\(\) does not "
+        r"declare reads\(InputKind::modulatory\)",
+        "",
+    ),
     "blank_name": (r"neuron type 'neuron Blank' has blanks in its name", ""),
     "crashes": (r"'neuronCrashes' that does not work: its update\(\) crashes: Segmentation fault", ""),
     "fifth_random": (r"'neuronFifthRandom' that does not work: it uses random number 4, but declares 4", ""),
     "misspelt_random": (r"'neuronMisspeltRandom' that does not work: its update\(\) reads random numbers that it does not declare", ""),
     "static_synapse": (r"'synapseStatic' that does not work: it computes other numbers when it starts again", ""),
     "text_range": (r"neuron type 'neuronTextRange' declares a range for the parameter 'mode', which is a text", ""),
-    "undeclared_event": (r"'neuronUndeclaredEvent' that does not work: its update\(\) reads Input::event, which stays 1: "
-                         r"'double event_probability\(\) const' is missing or misspelt", ""),
-    "undeclared_random": (r"'neuronUndeclaredRandom' that does not work: its update\(\) reads random numbers that it does not declare, "
-                          r"which stay 0: 'static constexpr int random_numbers = N;' is missing", ""),
+    "undeclared_event": (
+        r"'neuronUndeclaredEvent' that does not work: its update\(\) reads Input::event, which stays 1: "
+        r"'double event_probability\(\) const' is missing or misspelt",
+        "",
+    ),
+    "undeclared_random": (
+        r"'neuronUndeclaredRandom' that does not work: its update\(\) reads random numbers that it does not declare, "
+        r"which stay 0: 'static constexpr int random_numbers = N;' is missing",
+        "",
+    ),
     "behind_the_end": (r"has a neuron type 'neuronBehindTheEnd' that does not work: it writes beside its columns", ""),
     "half_good": (r"neuron type 'neuronBad' declares the state 'act' twice", ""),
     "no_history": (r"state 'act' has a history of 0, the least is 1", ""),
@@ -45,8 +54,11 @@ CORPUS = {
     "no_such_state": (r"'neuronNoSuchState' that does not work: it uses state 4, but declares 1", ""),
     "other_abi": (r"was built for .*_GLIBCXX_USE_CXX11_ABI=0.*, this program for ", "build the plugin again"),
     "other_layout": (r"was built with other compiler settings than this program", "build the plugin again"),
-    "restless_parameter": (r"'synapseRestlessParameter' that does not work: it promises event_driven\(\), and changes "
-                           r"state 'weight' while its source is silent: \S+ becomes \S+, with rate = 0\.", ""),
+    "restless_parameter": (
+        r"'synapseRestlessParameter' that does not work: it promises event_driven\(\), and changes "
+        r"state 'weight' while its source is silent: \S+ becomes \S+, with rate = 0\.",
+        "",
+    ),
     "other_size": (r"'neuronOtherSize' that does not work: it computes with columns of different sizes", ""),
     "other_version": (r"was built with version \d+ of the SDK, this program has version \d+", "build the plugin again"),
     "shipped_name": (r"has a neuron type 'neuronLinearThreshold', and so has Forage itself", "another name"),
@@ -84,8 +96,7 @@ class Plugins(unittest.TestCase):
         environment = {k: v for k, v in os.environ.items() if k != "FORAGE_PLUGIN_PATH"}
         if path is not None:
             environment["FORAGE_PLUGIN_PATH"] = str(path)
-        done = subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, env=environment, capture_output=True,
-                              text=True, timeout=600)
+        done = subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, env=environment, capture_output=True, text=True, timeout=600)
         self.assertEqual(done.returncode, status, done.stdout + done.stderr)
         return done
 
@@ -106,8 +117,10 @@ class Broken(Plugins):
         commands = (["run", system, "-c", 5], ["check", system], ["types"], ["schema"], ["convert", system, "out.iqr"])
 
         def said(name):  # the first one with every command, the others with the first command
-            return [self.forage(*command, "--plugin", BROKEN / f"{name}.so", status=2).stderr
-                    for command in (commands if name == next(iter(CORPUS)) else commands[:1])]
+            return [
+                self.forage(*command, "--plugin", BROKEN / f"{name}.so", status=2).stderr
+                for command in (commands if name == next(iter(CORPUS)) else commands[:1])
+            ]
 
         with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
             said = {name: pool.submit(said, name) for name in CORPUS}
@@ -125,11 +138,13 @@ class Broken(Plugins):
         (self.here / "empty.so").write_text("")
         (self.here / "mine.cpp").write_text("int x;")
         (self.here / "cut.so").write_bytes((BROKEN / "twice_a.so").read_bytes()[:1000])
-        for file, message, hint in (("text.so", "is not a shared object", "forage build-plugin FILE.cpp"),
-                                    ("empty.so", "is not a shared object", "forage build-plugin FILE.cpp"),
-                                    ("mine.cpp", "is not a shared object", "compile it first: 'forage build-plugin mine.cpp'"),
-                                    ("cut.so", "is cut off", "forage build-plugin"),
-                                    ("absent.so", "there is no plugin 'absent.so'", "a plugin is a shared object")):
+        for file, message, hint in (
+            ("text.so", "is not a shared object", "forage build-plugin FILE.cpp"),
+            ("empty.so", "is not a shared object", "forage build-plugin FILE.cpp"),
+            ("mine.cpp", "is not a shared object", "compile it first: 'forage build-plugin mine.cpp'"),
+            ("cut.so", "is cut off", "forage build-plugin"),
+            ("absent.so", "there is no plugin 'absent.so'", "a plugin is a shared object"),
+        ):
             done = self.forage("types", "--plugin", file, status=2)
             self.assertIn(message, done.stderr)
             self.assertIn(hint, done.stderr)
@@ -147,8 +162,7 @@ class Broken(Plugins):
 
     def test_an_exception_in_an_update_stops_the_run_and_keeps_what_was_recorded(self):
         system = self.system("neuronThrowingUpdate")
-        done = self.forage("run", system, "-c", 100, "--plugin", BROKEN / "throws_in_update.so", "--record", "P/A",
-                           "-o", "out", status=1)
+        done = self.forage("run", system, "-c", 100, "--plugin", BROKEN / "throws_in_update.so", "--record", "P/A", "-o", "out", status=1)
         self.assertIn("error: neuronThrowingUpdate of group 'P/A' failed in cycle 7: out of range", done.stderr)
         rows = (self.here / "out/P_A_act.csv").read_text().splitlines()
         self.assertEqual(rows[1:], [f"{c},{c + 1},{c + 1}" for c in range(7)])
@@ -209,8 +223,19 @@ class Twins(Plugins):
         system = f"system{twin}.iqr"
         (self.here / system).write_text(TWINS.format(twin=twin))
         change = "cycle 100: P/B.vmPrs=0.3"  # parameters of plugins change while they run, too
-        self.forage("run", system, "--plugin", BROKEN.parent / "twins.so", "-c", 300, "--schedule", change, "-o", f"out{twin}",
-                    *[word for column in ("A", "B", "B:vm", "D") for word in ("--record", f"P/{column}")])
+        self.forage(
+            "run",
+            system,
+            "--plugin",
+            BROKEN.parent / "twins.so",
+            "-c",
+            300,
+            "--schedule",
+            change,
+            "-o",
+            f"out{twin}",
+            *[word for column in ("A", "B", "B:vm", "D") for word in ("--record", f"P/{column}")],
+        )
         return {p.name: p.read_bytes() for p in (self.here / f"out{twin}").glob("*.csv")}
 
     def test_a_type_gives_the_same_bits_as_a_plugin(self):
@@ -220,13 +245,11 @@ class Twins(Plugins):
             self.assertGreater(len(set(content.split(b"\n"))), 5, name)  # something happens
             self.assertEqual(twin[name], content, name)
 
-
     def test_a_run_with_plugins_is_resumed_with_the_same_bytes(self):
         (self.here / "system.iqr").write_text(TWINS.format(twin="Twin"))
         command = ["run", "system.iqr", "--plugin", BROKEN.parent / "twins.so", "-c", 60, "--hash", "--record", "P/B", "--record", "P/D"]
         self.forage(*command, "-o", "whole")
-        stopped = subprocess.Popen([FORAGE, *map(str, command), "--realtime", "--checkpoint-every", "5", "-o", "out"],
-                                   cwd=self.here, stdout=subprocess.DEVNULL)
+        stopped = subprocess.Popen([FORAGE, *map(str, command), "--realtime", "--checkpoint-every", "5", "-o", "out"], cwd=self.here, stdout=subprocess.DEVNULL)
         wait_for((self.here / "out/checkpoint.forage").exists, stopped)
         stopped.kill()
         stopped.wait()
@@ -250,8 +273,11 @@ class Files(Plugins):
         self.write()
 
     def write(self, parameters=""):
-        module = ('<Module name="moduleDiary"><Parameter name="script" value="script.txt"/>' + parameters +
-                  '<XRefHolder name="InputFromGroup"><XRef name="in" target="a"/></XRefHolder></Module>')
+        module = (
+            '<Module name="moduleDiary"><Parameter name="script" value="script.txt"/>'
+            + parameters
+            + '<XRefHolder name="InputFromGroup"><XRef name="in" target="a"/></XRefHolder></Module>'
+        )
         text = SYSTEM.format(neuron="neuronRandomSpike", module=module)
         (self.here / "systems/diary.iqr").write_text(text)
 
@@ -263,8 +289,7 @@ class Files(Plugins):
 
     def stop(self, end, folder):
         """Stops a run with a signal, after a checkpoint."""
-        command = [FORAGE, "run", "systems/diary.iqr", "--plugin", self.DIARY, "-c", str(self.CYCLES), "--realtime",
-                   "--checkpoint-every", "7", "-o", folder]
+        command = [FORAGE, "run", "systems/diary.iqr", "--plugin", self.DIARY, "-c", str(self.CYCLES), "--realtime", "--checkpoint-every", "7", "-o", folder]
         run = subprocess.Popen(command, cwd=self.here, stdout=subprocess.DEVNULL)
         wait_for((self.here / folder / "checkpoint.forage").exists, run)
         run.send_signal(end)
@@ -298,16 +323,17 @@ class Files(Plugins):
         self.assertRegex(self.forage("resume", "out", status=2).stderr, "the file '.*P_diary.log' of a module should have")
 
     def test_runs_of_an_experiment_write_files_of_their_own(self):
-        (self.here / "e.xml").write_text('<experiment><system file="systems/diary.iqr"/><length cycles="50"/><seeds first="1" count="4"/>'
-                                         '<measure name="x" final="mean(P/A)"/></experiment>')
+        (self.here / "e.xml").write_text(
+            '<experiment><system file="systems/diary.iqr"/><length cycles="50"/><seeds first="1" count="4"/>'
+            '<measure name="x" final="mean(P/A)"/></experiment>'
+        )
         self.forage("experiment", "e.xml", "--plugin", self.DIARY, "-o", "out", "--jobs", 4)
         diaries = sorted(p.read_text() for p in self.here.glob("out/**/P_diary.log"))
         self.assertEqual([d.split("\n")[0].split()[3] for d in diaries], ["1", "2", "3", "4"])
         self.assertEqual([d.count("\n") for d in diaries], [51] * 4)
 
     def test_files_that_cannot_be_opened(self):
-        for name, message in (("diary.log", "the run already writes a file 'P_diary.log'"),
-                              ("A_act.csv", "the run already writes a file 'P_A_act.csv'")):
+        for name, message in (("diary.log", "the run already writes a file 'P_diary.log'"), ("A_act.csv", "the run already writes a file 'P_A_act.csv'")):
             self.write(f'<Parameter name="other" value="{name}"/>')
             done = self.run_diary("-o", "out", "--record", "P/A", status=2)
             self.assertIn(f"error: moduleDiary of process 'P' could not start: {message}", done.stderr)
@@ -343,8 +369,7 @@ class Found(Plugins):
 
     def test_an_experiment_takes_plugins_too_and_repeats_runs_when_they_change(self):
         system = self.system("neuronTwice")
-        (self.here / "e.xml").write_text(f'<experiment><system file="{system}"/><length cycles="5"/>'
-                                         '<measure name="x" final="mean(P/A)"/></experiment>')
+        (self.here / "e.xml").write_text(f'<experiment><system file="{system}"/><length cycles="5"/>' '<measure name="x" final="mean(P/A)"/></experiment>')
         self.forage("experiment", "e.xml", status=2)
         (self.here / "plugins").mkdir()
         shutil.copy(self.PLUGIN, self.here / "plugins")
@@ -365,8 +390,9 @@ class Found(Plugins):
         os.utime(source, (1, 1))
         self.assertEqual(self.forage("check", "system.iqr").stderr, "")
         os.utime(source, (4e9, 4e9))
-        self.assertIn("warning: plugin 'plugins/mine.so' is older than 'mine.cpp'\n  hint: 'forage build-plugin mine.cpp'",
-                      self.forage("check", "system.iqr").stderr)
+        self.assertIn(
+            "warning: plugin 'plugins/mine.so' is older than 'mine.cpp'\n  hint: 'forage build-plugin mine.cpp'", self.forage("check", "system.iqr").stderr
+        )
 
     def test_a_missing_folder_of_the_path_is_a_warning(self):
         done = self.forage("types", path="/nowhere")
@@ -383,8 +409,11 @@ class BuildTree(unittest.TestCase):
         for kind in ("neuron", "synapse"):
             with self.subTest(kind), tempfile.TemporaryDirectory() as folder:
                 here = pathlib.Path(folder) / "mine"
-                for words in (["new", kind, "mine"], ["build-plugin", "mine/mine.cpp"],
-                              ["run", "mine/example.iqr", "--cycles", "6", "--record", "Example/Cells", "-o", "mine/out"]):
+                for words in (
+                    ["new", kind, "mine"],
+                    ["build-plugin", "mine/mine.cpp"],
+                    ["run", "mine/example.iqr", "--cycles", "6", "--record", "Example/Cells", "-o", "mine/out"],
+                ):
                     done = subprocess.run([FORAGE, *words], cwd=folder, capture_output=True, text=True, timeout=600)
                     self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
                 self.assertEqual((here / "out/Example_Cells_act.csv").read_text(), (here / "expected.csv").read_text())

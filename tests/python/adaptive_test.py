@@ -19,8 +19,15 @@ OPTIONS = {"trials": 2, "trial_timeout": 60, "seeds": 3, "measure": {"length": {
 CONFIDENCE = {"confidence": {"measure": "length", "width": 0.5, "most": 12}}
 HALVING = {"halving": {"measure": "length", "keep": "lowest"}}
 BOUNDS = {"Reactive Layer/US.threshold": (0.1, 0.95), "Bug.transSpeed": (0.3, 1.0)}
-SEARCH = {"trials": 1, "trial_timeout": 20, "seeds": 2, "measure": {"length": {"duration": "all"}, "success": {"success": "all"}}, "generations": 3,
-          "population": 6, "seed": 3}
+SEARCH = {
+    "trials": 1,
+    "trial_timeout": 20,
+    "seeds": 2,
+    "measure": {"length": {"duration": "all"}, "success": {"success": "all"}},
+    "generations": 3,
+    "population": 6,
+    "seed": 3,
+}
 
 
 @pytest.fixture(scope="module")
@@ -39,14 +46,17 @@ def seeds_of(table):
 
 def file_of(folder, element):
     values = " ".join(map(str, next(iter(VALUES.values()))))
-    (folder / "x.xml").write_text(f'<experiment><system file="{REACTIVE}"/><world file="{WORLD}"/><length trials="2" longest-trial="60"/><seeds count="3"/>'
-                                  f'<sweep parameter="Reactive Layer/US.threshold" values="{values}"/><measure name="length" duration="all"/>{element}'
-                                  '</experiment>')
+    (folder / "x.xml").write_text(
+        f'<experiment><system file="{REACTIVE}"/><world file="{WORLD}"/><length trials="2" longest-trial="60"/><seeds count="3"/>'
+        f'<sweep parameter="Reactive Layer/US.threshold" values="{values}"/><measure name="length" duration="all"/>{element}'
+        '</experiment>'
+    )
     return folder / "x.xml"
 
 
-@pytest.mark.parametrize("adapt, element", [(CONFIDENCE, '<confidence measure="length" width="0.5" most="12"/>'),
-                                            (HALVING, '<halving measure="length" keep="lowest"/>')])
+@pytest.mark.parametrize(
+    "adapt, element", [(CONFIDENCE, '<confidence measure="length" width="0.5" most="12"/>'), (HALVING, '<halving measure="length" keep="lowest"/>')]
+)
 def test_a_sweep_is_that_of_a_file_with_any_workers(adapt, element, workers, tmp_path):
     table = forage.sweep(REACTIVE, WORLD, VALUES, **OPTIONS, **adapt)
     counts = seeds_of(table)
@@ -56,7 +66,9 @@ def test_a_sweep_is_that_of_a_file_with_any_workers(adapt, element, workers, tmp
     file = file_of(tmp_path, element)
     assert (table == forage.experiment(file, directory=tmp_path / "whole")).all()
     reported = []
-    assert (table == forage.experiment(file, directory=tmp_path / "parts", executor=workers, parts=3, progress=lambda fraction, text: reported.append(text))).all()
+    assert (
+        table == forage.experiment(file, directory=tmp_path / "parts", executor=workers, parts=3, progress=lambda fraction, text: reported.append(text))
+    ).all()
     assert (table == forage.sweep(REACTIVE, WORLD, VALUES, directory=tmp_path / "sweep", executor=workers, parts=3, **OPTIONS, **adapt)).all()
     assert "3/3 parts" in reported and any(text.startswith("round 2: ") for text in reported)
     assert not list((tmp_path / "parts/runs").iterdir()) and not list((tmp_path / "sweep/runs").iterdir())  # everything was executed by workers
@@ -65,12 +77,15 @@ def test_a_sweep_is_that_of_a_file_with_any_workers(adapt, element, workers, tmp
 
 
 def test_mistakes():
-    for options, words in [({"confidence": {"measure": "length"}}, "width"), ({"confidence": {"width": 1}}, "no measure is named"),
-                           ({"confidence": {"measure": "lenth", "width": 1}}, "there is no measure 'lenth'"),
-                           ({"confidence": {"measure": "length", "with": 1}}, "there is no 'with'"),
-                           ({"confidence": {"measure": "length", "width": 1, "most": 2}}, "at most 2 seeds"),
-                           ({"halving": {"measure": "length", "keep": "best"}}, "'highest' or 'lowest'"),
-                           ({**CONFIDENCE, **HALVING}, "exclude each other")]:
+    for options, words in [
+        ({"confidence": {"measure": "length"}}, "width"),
+        ({"confidence": {"width": 1}}, "no measure is named"),
+        ({"confidence": {"measure": "lenth", "width": 1}}, "there is no measure 'lenth'"),
+        ({"confidence": {"measure": "length", "with": 1}}, "there is no 'with'"),
+        ({"confidence": {"measure": "length", "width": 1, "most": 2}}, "at most 2 seeds"),
+        ({"halving": {"measure": "length", "keep": "best"}}, "'highest' or 'lowest'"),
+        ({**CONFIDENCE, **HALVING}, "exclude each other"),
+    ]:
         with pytest.raises(forage.InputError, match=words):
             forage.sweep(REACTIVE, WORLD, VALUES, **OPTIONS, **options)
     with pytest.raises(ValueError, match="functions"):
@@ -91,8 +106,18 @@ def test_a_search_depends_on_its_seed_only(method, package, workers):
     assert list(history["generation"]) == [1] * 6 + [2] * 6 + [3] * 6
     for name, (low, high) in BOUNDS.items():
         assert ((history[name] >= low) & (history[name] <= high)).all()
-    assert found.cost == history["cost"].min() and cost(forage.sweep(REACTIVE, WORLD, {name: [value] for name, value in found.values.items()},
-                                                                     **{k: SEARCH[k] for k in ("trials", "trial_timeout", "seeds", "measure")})) == found.cost
+    assert (
+        found.cost == history["cost"].min()
+        and cost(
+            forage.sweep(
+                REACTIVE,
+                WORLD,
+                {name: [value] for name, value in found.values.items()},
+                **{k: SEARCH[k] for k in ("trials", "trial_timeout", "seeds", "measure")},
+            )
+        )
+        == found.cost
+    )
     for options in ({"jobs": 1}, {"executor": workers, "parts": 3}):
         assert (forage.optimise(REACTIVE, WORLD, BOUNDS, cost=cost, method=method, **SEARCH, **options).history == history).all()
     assert (forage.optimise(REACTIVE, WORLD, BOUNDS, cost=cost, method=method, **{**SEARCH, "seed": 4}).history != history).any()

@@ -10,7 +10,17 @@ from conftest import PROJECT, SYSTEMS
 BLOCK = re.compile(r"^```(python|text)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
-@pytest.mark.parametrize("page, needed", [("adaptive", ["pandas", "scipy"]), ("python", []), ("python-learning", []), ("python-models", ["pandas", "scipy"]), ("python-types", []), ("from-other-tools", [])])
+@pytest.mark.parametrize(
+    "page, needed",
+    [
+        ("adaptive", ["pandas", "scipy"]),
+        ("python", []),
+        ("python-learning", []),
+        ("python-models", ["pandas", "scipy"]),
+        ("python-types", []),
+        ("from-other-tools", []),
+    ],
+)
 def test_a_page_is_followed_to_its_end(page, needed, tmp_path, monkeypatch):
     for package in needed:
         pytest.importorskip(package)

@@ -76,8 +76,14 @@ def test_a_system_that_was_built(tmp_path):
 
 
 def test_values_that_vary_together():
-    made = forage.sweep(forager(), WORLD, {("Bug.transSpeed", "Bug.rotSpeed"): [(0.5, 1), (1, 2)], "Bug/Light.threshold": [0, 0.5]}, seeds=[7],
-                        cycles=10, measure={"path": {"robot": "path length"}})
+    made = forage.sweep(
+        forager(),
+        WORLD,
+        {("Bug.transSpeed", "Bug.rotSpeed"): [(0.5, 1), (1, 2)], "Bug/Light.threshold": [0, 0.5]},
+        seeds=[7],
+        cycles=10,
+        measure={"path": {"robot": "path length"}},
+    )
     assert list(zip(made["Bug.transSpeed"], made["Bug.rotSpeed"], made["Bug/Light.threshold"])) == [(0.5, 1, 0), (0.5, 1, 0.5), (1, 2, 0), (1, 2, 0.5)]
     assert (made["path"][2:] > made["path"][:2]).all() and set(made["seed"]) == {7}
 
@@ -102,10 +108,17 @@ def test_a_function_may_run_the_run_itself():
 
 def test_mistakes_are_found_before_the_first_run():
     ran = []
-    for values, options in [({"Bug/Light.treshold": [1]}, {}), ({"Bug/Light.threshold": [0, "high"]}, {}), ({"Bug/Light.threshold": []}, {}),
-                            ({("Bug/Light.threshold", "Bug/Light.excGain"): [(1,)]}, {}), ({}, {"until": "max(Bug/Ligt) > 1"}), ({}, {"seeds": 0}),
-                            ({}, {"measure": {"x": {"sucess": "all"}}}), ({}, {"measure": {"x": {"first": "max(Bug/Ligt) > 1"}}}),
-                            ({}, {"settings": {"Bug.x": 1}})]:
+    for values, options in [
+        ({"Bug/Light.treshold": [1]}, {}),
+        ({"Bug/Light.threshold": [0, "high"]}, {}),
+        ({"Bug/Light.threshold": []}, {}),
+        ({("Bug/Light.threshold", "Bug/Light.excGain"): [(1,)]}, {}),
+        ({}, {"until": "max(Bug/Ligt) > 1"}),
+        ({}, {"seeds": 0}),
+        ({}, {"measure": {"x": {"sucess": "all"}}}),
+        ({}, {"measure": {"x": {"first": "max(Bug/Ligt) > 1"}}}),
+        ({}, {"settings": {"Bug.x": 1}}),
+    ]:
         measures = options.pop("measure", {})
         for functions in ({}, {"function": ran.append}):
             with pytest.raises(forage.InputError):
@@ -151,8 +164,10 @@ def test_a_trial_that_takes_too_long_stops_its_run():
 
 @pytest.mark.parametrize("measure", ["{'success': {'success': 'all'}}", "len"])
 def test_ctrl_c_ends_all_runs(measure):
-    program = (f"import forage\nforage.sweep({str(REACTIVE)!r}, {str(WORLD)!r}, seeds=100, seconds=1e6, measure={measure}, "
-               "progress=lambda fraction, text: print(text, flush=True))")
+    program = (
+        f"import forage\nforage.sweep({str(REACTIVE)!r}, {str(WORLD)!r}, seeds=100, seconds=1e6, measure={measure}, "
+        "progress=lambda fraction, text: print(text, flush=True))"
+    )
     process = subprocess.Popen([sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, cwd=PROJECT)
     process.stdout.readline()
     process.send_signal(signal.SIGINT)

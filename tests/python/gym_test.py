@@ -34,8 +34,13 @@ def same(a, b):
     return all(numpy.array_equal(x, y) for one, other in zip(a, b) for x, y in zip(one, other))
 
 
-ENVIRONMENTS = [dict(), dict(action="velocity", motors={"motor": (9, 9)}), dict(action="activity", cycles_per_step=1),
-                dict(sensors={"target": None, "placeCell": (5, 7), "gps": None}, max_steps=20), dict(system=DAC, **GROUPS)]
+ENVIRONMENTS = [
+    dict(),
+    dict(action="velocity", motors={"motor": (9, 9)}),
+    dict(action="activity", cycles_per_step=1),
+    dict(sensors={"target": None, "placeCell": (5, 7), "gps": None}, max_steps=20),
+    dict(system=DAC, **GROUPS),
+]
 
 
 @pytest.mark.parametrize("options", ENVIRONMENTS, ids=lambda o: "-".join(o) or "usual")
@@ -199,21 +204,24 @@ def test_what_is_no_action_is_refused_and_the_environment_goes_on(action):
     env.step(AHEAD)
 
 
-@pytest.mark.parametrize("options, message", [
-    (dict(sensors=["tarket"]), "did you mean 'target'"),
-    (dict(sensors=[]), "senses nothing"),
-    (dict(motors=[]), "moves nothing"),
-    (dict(motors={"motor": (4, 4)}), "4 x 4"),
-    (dict(robot="Bgu"), "Bgu"),
-    (dict(cycles_per_step=0), "at least 1 cycle"),
-    (dict(action="joystick"), "velocity"),
-    (dict(reward="Bug/target"), "is 32 numbers"),
-    (dict(render_mode="smell"), "rgb_array"),
-    (dict(system=DAC), "name its sensor and motor groups"),
-    (dict(system=DAC, sensors=["Bug/Lihgt"], motors=["Bug/Motor"]), "did you mean 'Bug/Light'"),
-    (dict(system=DAC, sensors=["Bug/Light"], motors=["Bug/Lihgt"]), "Bug/Lihgt"),
-    (dict(system=DAC, sensors=["Bug/Light"], motors=["Bug/Light"], action="velocity"), "cannot take a velocity"),
-])
+@pytest.mark.parametrize(
+    "options, message",
+    [
+        (dict(sensors=["tarket"]), "did you mean 'target'"),
+        (dict(sensors=[]), "senses nothing"),
+        (dict(motors=[]), "moves nothing"),
+        (dict(motors={"motor": (4, 4)}), "4 x 4"),
+        (dict(robot="Bgu"), "Bgu"),
+        (dict(cycles_per_step=0), "at least 1 cycle"),
+        (dict(action="joystick"), "velocity"),
+        (dict(reward="Bug/target"), "is 32 numbers"),
+        (dict(render_mode="smell"), "rgb_array"),
+        (dict(system=DAC), "name its sensor and motor groups"),
+        (dict(system=DAC, sensors=["Bug/Lihgt"], motors=["Bug/Motor"]), "did you mean 'Bug/Light'"),
+        (dict(system=DAC, sensors=["Bug/Light"], motors=["Bug/Lihgt"]), "Bug/Lihgt"),
+        (dict(system=DAC, sensors=["Bug/Light"], motors=["Bug/Light"], action="velocity"), "cannot take a velocity"),
+    ],
+)
 def test_mistakes_are_told_when_the_environment_is_made(options, message):
     with pytest.raises(forage.InputError, match=message):
         BugEnv(WORLD, **options)
@@ -259,8 +267,10 @@ def test_the_parallel_contract():
     first, again, other = play(3), play(3), play(4)
 
     def numbers(all_steps):
-        return [[x for part in step for a in sorted(part) for x in numpy.ravel(list(part[a].values()) if isinstance(part[a], dict) else part[a])]
-                for step in all_steps]
+        return [
+            [x for part in step for a in sorted(part) for x in numpy.ravel(list(part[a].values()) if isinstance(part[a], dict) else part[a])]
+            for step in all_steps
+        ]
 
     assert numbers(first) == numbers(again) != numbers(other)
     env.reset()
@@ -363,9 +373,11 @@ def test_the_environments_are_subclasses_where_gymnasium_is_installed(tmp_path):
     (tmp_path / "gymnasium/vector/__init__.py").write_text("class VectorEnv: pass\nclass AutoresetMode: NEXT_STEP = 'mode'\n")
     (tmp_path / "gymnasium/vector/utils/__init__.py").write_text("batch_space = None\n")
     (tmp_path / "pettingzoo.py").write_text("class ParallelEnv: pass\n")
-    code = ("import gymnasium, pettingzoo, forage, sys; assert 'forage.gym' not in sys.modules\nfrom forage.gym import *\n"
-            "assert issubclass(BugEnv, gymnasium.Env) and issubclass(BugParallelEnv, pettingzoo.ParallelEnv)\n"
-            "assert issubclass(BugVectorEnv, gymnasium.vector.VectorEnv) and BugVectorEnv.metadata['autoreset_mode'] == 'mode'\n")
+    code = (
+        "import gymnasium, pettingzoo, forage, sys; assert 'forage.gym' not in sys.modules\nfrom forage.gym import *\n"
+        "assert issubclass(BugEnv, gymnasium.Env) and issubclass(BugParallelEnv, pettingzoo.ParallelEnv)\n"
+        "assert issubclass(BugVectorEnv, gymnasium.vector.VectorEnv) and BugVectorEnv.metadata['autoreset_mode'] == 'mode'\n"
+    )
     path = os.pathsep.join([str(tmp_path), os.environ["PYTHONPATH"]])
     subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": path}, check=True)
 

@@ -29,5 +29,4 @@ def test_the_installed_package_is_where_the_interpreter_looks(tmp_path, prefix):
     assert {"py.typed", "_forage.pyi"} <= {file.name for file in package.iterdir()}
     if sys.executable == "/usr/bin/python3":
         assert "/" + str(package.parent.relative_to(tmp_path)) in json.loads(python("import json, sys; print(json.dumps(sys.path))", ""))
-    assert python("import forage; print(forage.__file__, forage.__version__)", package.parent).split() == [
-        str(package / "__init__.py"), forage.__version__]
+    assert python("import forage; print(forage.__file__, forage.__version__)", package.parent).split() == [str(package / "__init__.py"), forage.__version__]

@@ -106,8 +106,12 @@ def test_parameters_are_read_written_and_checked(dac):
     for name in params:
         value = params[name]
         assert isinstance(value, (bool, int, float, str))
-    for name, value, message in (("Bug/Light.threshhold", 1, "did you mean 'threshold'"), ("Bug/Lihgt.threshold", 1, "did you mean"),
-                                 ("Bug/Light.threshold", "much", "is not a number"), ("Bug/Light.threshold", float("nan"), "is not a number")):
+    for name, value, message in (
+        ("Bug/Light.threshhold", 1, "did you mean 'threshold'"),
+        ("Bug/Lihgt.threshold", 1, "did you mean"),
+        ("Bug/Light.threshold", "much", "is not a number"),
+        ("Bug/Light.threshold", float("nan"), "is not a number"),
+    ):
         with pytest.raises(forage.InputError, match=message):
             params[name] = value
     assert params["Bug/Light.threshold"] == 0.3
@@ -138,8 +142,22 @@ def test_a_probe_records_what_the_command_line_records(dac, command, tmp_path):
     dac.run(cycles=100)
     assert len(probe) == 10 and probe.data.shape == (10, 1, 32) and mean.data.shape == (100,)
     assert (probe.cycles == numpy.arange(0, 100, 10)).all()
-    command("run", SYSTEMS / "dac_foraging.iqr", "--world", WORLD, "--cycles", 100, "-o", tmp_path / "out", "-r", "Bug/Light", "--record-every", 10,
-            "--format", "npy")
+    command(
+        "run",
+        SYSTEMS / "dac_foraging.iqr",
+        "--world",
+        WORLD,
+        "--cycles",
+        100,
+        "-o",
+        tmp_path / "out",
+        "-r",
+        "Bug/Light",
+        "--record-every",
+        10,
+        "--format",
+        "npy",
+    )
     file = next((tmp_path / "out").glob("*.npy"))
     rows = numpy.load(file)
     assert (rows[rows.dtype.names[1]].reshape(10, -1) == probe.data.reshape(10, -1)).all()
@@ -197,9 +215,15 @@ def test_what_is_not_observed_is_not_computed_and_an_error():
         assert run["Bug/Light"].act.max() > 0
         run.probe("Bug/Light")
         run.run_until("max(Bug/Light) > 0", cycles=1)
-        for look in (lambda: run["Adaptive/discrepancy"].act, lambda: run.probe("Adaptive/discrepancy"), lambda: run.read("Adaptive/discrepancy"),
-                     lambda: run.run_until("max(Adaptive/discrepancy) > 2"), lambda: run["Bug/Light"].clamp(1), lambda: run["Bug/Light"].set(1),
-                     lambda: run["Bug/Light"].excIn):
+        for look in (
+            lambda: run["Adaptive/discrepancy"].act,
+            lambda: run.probe("Adaptive/discrepancy"),
+            lambda: run.read("Adaptive/discrepancy"),
+            lambda: run.run_until("max(Adaptive/discrepancy) > 2"),
+            lambda: run["Bug/Light"].clamp(1),
+            lambda: run["Bug/Light"].set(1),
+            lambda: run["Bug/Light"].excIn,
+        ):
             with pytest.raises(forage.InputError, match="is not computed in this run") as error:
                 look()
             assert "when the run is opened" in error.value.hint

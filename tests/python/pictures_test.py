@@ -8,10 +8,26 @@ import pytest
 import forage
 from conftest import SYSTEMS, WORLD, open_dac
 
-PICTURES = ["time:Bug/Light", "time:mean(Bug/Light)", "space:Bug/Light@100,200", "movie:Bug/Motor@0..100/10", "diagram", "diagram:Bug",
-            "connection:Light to US", "trajectory"]
-FILES = ["time_Bug_Light.png", "time_mean_Bug_Light.png", "space_Bug_Light_100_200.png", "movie_Bug_Motor_0..100_10.gif", "diagram.png",
-         "diagram_Bug.png", "connection_Light_to_US.png", "trajectory.png"]
+PICTURES = [
+    "time:Bug/Light",
+    "time:mean(Bug/Light)",
+    "space:Bug/Light@100,200",
+    "movie:Bug/Motor@0..100/10",
+    "diagram",
+    "diagram:Bug",
+    "connection:Light to US",
+    "trajectory",
+]
+FILES = [
+    "time_Bug_Light.png",
+    "time_mean_Bug_Light.png",
+    "space_Bug_Light_100_200.png",
+    "movie_Bug_Motor_0..100_10.gif",
+    "diagram.png",
+    "diagram_Bug.png",
+    "connection_Light_to_US.png",
+    "trajectory.png",
+]
 
 
 def test_pictures_are_those_of_the_command_line(dac, command, tmp_path):
@@ -52,9 +68,14 @@ def test_a_diagram_is_in_the_page_that_a_notebook_exports(dac):
 
 
 def test_what_cannot_be_drawn_says_why(dac):
-    for picture, message in (("time:Bug/Light", "is not recorded"), ("time:Bug/Ligth", "'Bug' has no group 'Ligth'|there is no group"),
-                             ("curve:success", "results of several runs"), ("nothing:x", "nothing"), ("connection:None", "None"),
-                             ("diagram:None", "there is no process 'None'")):
+    for picture, message in (
+        ("time:Bug/Light", "is not recorded"),
+        ("time:Bug/Ligth", "'Bug' has no group 'Ligth'|there is no group"),
+        ("curve:success", "results of several runs"),
+        ("nothing:x", "nothing"),
+        ("connection:None", "None"),
+        ("diagram:None", "there is no process 'None'"),
+    ):
         with pytest.raises(forage.InputError, match=message):
             dac.plot(picture)
     with pytest.raises(forage.InputError, match="format"):

@@ -28,8 +28,24 @@ def test_settings_seed_and_schedules_in_python_are_those_of_the_command_line(com
         run.params["Bug/Light.threshold"] = 0.5
         run.run(cycles=100)
         digest = run.digest()
-    printed = command("run", SYSTEMS / "dac_foraging.iqr", "--world", WORLD, "--seed", 7, "--set", "Bug/Light.threshold=0.25", "--no-noise",
-                      "--schedule", "cycle 100: Bug/Light.threshold=0.5", "--cycles", 200, "--hash", "-o", "")
+    printed = command(
+        "run",
+        SYSTEMS / "dac_foraging.iqr",
+        "--world",
+        WORLD,
+        "--seed",
+        7,
+        "--set",
+        "Bug/Light.threshold=0.25",
+        "--no-noise",
+        "--schedule",
+        "cycle 100: Bug/Light.threshold=0.5",
+        "--cycles",
+        200,
+        "--hash",
+        "-o",
+        "",
+    )
     assert digest == state_in(printed)
 
 
@@ -236,7 +252,11 @@ def test_import_is_fast_and_light():
     import subprocess
     import sys
 
-    loaded = subprocess.run([sys.executable, "-c", "import sys; before = set(sys.modules); import forage; print(*(set(sys.modules) - before))"],
-                            capture_output=True, text=True, check=True).stdout.split()
+    loaded = subprocess.run(
+        [sys.executable, "-c", "import sys; before = set(sys.modules); import forage; print(*(set(sys.modules) - before))"],
+        capture_output=True,
+        text=True,
+        check=True,
+    ).stdout.split()
     assert not {"numpy", "pandas", "xarray", "neo", "scipy"} & set(loaded)
     assert len(loaded) < 12, loaded

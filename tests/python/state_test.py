@@ -52,8 +52,12 @@ def test_a_run_that_computes_only_what_is_observed_is_copied():
 
 def test_states_that_cannot_be_resumed_say_why(dac, tmp_path):
     state = dac.save_state()
-    for wrong, why in ((b"", "ends too early"), (b"something else entirely", "is not a checkpoint"), (state[:-1], "is damaged"),
-                       (state[:-1] + bytes([state[-1] ^ 1]), "checksum")):
+    for wrong, why in (
+        (b"", "ends too early"),
+        (b"something else entirely", "is not a checkpoint"),
+        (state[:-1], "is damaged"),
+        (state[:-1] + bytes([state[-1] ^ 1]), "checksum"),
+    ):
         with pytest.raises(forage.InputError, match=why):
             forage.resume(wrong)
     with pytest.raises(forage.InputError, match="no such file"):

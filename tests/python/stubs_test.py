@@ -62,12 +62,20 @@ def checks(tmp_path_factory):
         (folder / name).write_text(text)
 
     def start(module, *arguments):
-        return subprocess.Popen([sys.executable, "-m", module, *arguments], cwd=folder, env={**os.environ, "MYPYPATH": PACKAGE}, stdout=subprocess.PIPE,
-                                stderr=subprocess.STDOUT, text=True)
+        return subprocess.Popen(
+            [sys.executable, "-m", module, *arguments],
+            cwd=folder,
+            env={**os.environ, "MYPYPATH": PACKAGE},
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
 
     cache = os.path.join(os.path.dirname(PACKAGE), "mypy_cache")
-    return {"strict": start("mypy", "--strict", "--config-file", "mypy.ini", "--cache-dir", cache, "program.py", *MODULES),
-            "stubs": start("mypy.stubtest", "--mypy-config-file", "mypy.ini", "--allowlist", "allowed", "--ignore-unused-allowlist", "forage")}
+    return {
+        "strict": start("mypy", "--strict", "--config-file", "mypy.ini", "--cache-dir", cache, "program.py", *MODULES),
+        "stubs": start("mypy.stubtest", "--mypy-config-file", "mypy.ini", "--allowlist", "allowed", "--ignore-unused-allowlist", "forage"),
+    }
 
 
 @pytest.mark.parametrize("check", ["strict", "stubs"])

@@ -75,10 +75,19 @@ def test_an_edit_is_repeated_in_python(tmp_path):
         made = []
         for operations in (
             [{"do": "add_process", "name": "More \"cells\"", "x": 10, "y": 20}],
-            [{"do": "add_group", "process": process.id, "name": "Ear", "width": 3, "height": 2, "x": 5, "y": 6}, {"do": "rename", "id": group.id, "name": "Nose"}],
+            [
+                {"do": "add_group", "process": process.id, "name": "Ear", "width": 3, "height": 2, "x": 5, "y": 6},
+                {"do": "rename", "id": group.id, "name": "Nose"},
+            ],
             [{"do": "add_connection", "source": group.id, "target": "Ear", "kind": "inhibitory"}],
-            [{"do": "type", "id": "Ear", "part": "neuron", "type": "neuronIntegrateFire"}, {"do": "parameter", "id": "Ear", "name": "threshold", "value": 0.25}],
-            [{"do": "pattern", "id": connection, "pattern": tuples}, {"do": "delay", "id": connection, "delay": {"type": "FunUniform", "values": {"value": 2}}}],
+            [
+                {"do": "type", "id": "Ear", "part": "neuron", "type": "neuronIntegrateFire"},
+                {"do": "parameter", "id": "Ear", "name": "threshold", "value": 0.25},
+            ],
+            [
+                {"do": "pattern", "id": connection, "pattern": tuples},
+                {"do": "delay", "id": connection, "delay": {"type": "FunUniform", "values": {"value": 2}}},
+            ],
             [{"do": "set", "id": process.id, "property": "enabled", "value": True}, {"do": "set", "id": "Ear", "property": "note", "value": "hears"}],
             [{"do": "place", "id": "Ear", "x": 70, "y": 80}],
             [{"do": "add_comment", "process": process.id, "text": "as it was", "x": 1, "y": 2}],

@@ -141,25 +141,33 @@ def test_mistakes_are_found_at_once():
     system = forager()
     before = system.to_xml()
     bug, light = system["Bug"], system["Bug/Light"]
-    for mistake, hint in [(lambda: light.params.__setitem__("treshold", 1), "threshold"),
-                          (lambda: light.params.__setitem__("threshold", "high"), ""),
-                          (lambda: light.params["treshold"], "threshold"),
-                          (lambda: bug.add_group("A", type="neuronLinearTreshold"), "neuronLinearThreshold"),
-                          (lambda: bug.add_group("A", excGian=1), "excGain"),
-                          (lambda: bug.set_module("moduleGazeboBugs"), "moduleGazeboBug"),
-                          (lambda: bug.set_module("moduleGazeboBug", outputs={"_target": "Bug/Ligt"}), "Bug/Light"),
-                          (lambda: system.connect("Bug/Ligt", "Bug/Motor"), "Bug/Light"),
-                          (lambda: system.connect("Bug", "Bug/Motor"), ""),
-                          (lambda: system.connect(forager()["Bug/Light"], "Bug/Motor"), ""),
-                          (lambda: system.connect("Bug/Light", "Bug/Motor", "excitory"), "excitatory"),
-                          (lambda: system.connect("Bug/Light", "Bug/Motor", wieght=1), "weight"),
-                          (lambda: system.connect("Bug/Light", "Bug/Motor", synapse="synapseFixed"), "synapseFixedWeight"),
-                          (lambda: Arborization.rect(1, 1, direction="projektive"), "projective")]:
+    for mistake, hint in [
+        (lambda: light.params.__setitem__("treshold", 1), "threshold"),
+        (lambda: light.params.__setitem__("threshold", "high"), ""),
+        (lambda: light.params["treshold"], "threshold"),
+        (lambda: bug.add_group("A", type="neuronLinearTreshold"), "neuronLinearThreshold"),
+        (lambda: bug.add_group("A", excGian=1), "excGain"),
+        (lambda: bug.set_module("moduleGazeboBugs"), "moduleGazeboBug"),
+        (lambda: bug.set_module("moduleGazeboBug", outputs={"_target": "Bug/Ligt"}), "Bug/Light"),
+        (lambda: system.connect("Bug/Ligt", "Bug/Motor"), "Bug/Light"),
+        (lambda: system.connect("Bug", "Bug/Motor"), ""),
+        (lambda: system.connect(forager()["Bug/Light"], "Bug/Motor"), ""),
+        (lambda: system.connect("Bug/Light", "Bug/Motor", "excitory"), "excitatory"),
+        (lambda: system.connect("Bug/Light", "Bug/Motor", wieght=1), "weight"),
+        (lambda: system.connect("Bug/Light", "Bug/Motor", synapse="synapseFixed"), "synapseFixedWeight"),
+        (lambda: Arborization.rect(1, 1, direction="projektive"), "projective"),
+    ]:
         with pytest.raises(forage.InputError) as caught:
             mistake()
         assert hint in caught.value.hint, caught.value
-    for wrong in (lambda: system.connect(light, 3), lambda: system.connect(light, light, pattern="all"), lambda: system.connect(light, light, delay="x"),
-                  lambda: Pattern.foreach(5), lambda: Pattern.tuples([((1, 1), (2, 2))]), lambda: forage.open(None)):
+    for wrong in (
+        lambda: system.connect(light, 3),
+        lambda: system.connect(light, light, pattern="all"),
+        lambda: system.connect(light, light, delay="x"),
+        lambda: Pattern.foreach(5),
+        lambda: Pattern.tuples([((1, 1), (2, 2))]),
+        lambda: forage.open(None),
+    ):
         with pytest.raises(TypeError, match=" is "):
             wrong()
     with pytest.raises(ValueError, match="taken"):
@@ -177,8 +185,7 @@ def test_all_other_mistakes_are_those_of_check(tmp_path):
         forage.open(system, world=WORLD)
     assert str(opened.value) == str(caught.value)
     system.save(tmp_path / "forager.iqr")
-    done = subprocess.run([os.environ["FORAGE"], "check", tmp_path / "forager.iqr", "--world", WORLD], capture_output=True, text=True,
-                          env=outside())
+    done = subprocess.run([os.environ["FORAGE"], "check", tmp_path / "forager.iqr", "--world", WORLD], capture_output=True, text=True, env=outside())
     assert done.returncode == 2
     with pytest.raises(forage.InputError) as saved:
         system.validate(WORLD)
@@ -286,18 +293,29 @@ def test_runs_of_one_system_in_several_threads():
 
 cells = some.one_of(some.none(), some.tuples(*[some.integers(1, 4)] * 4), some.lists(some.tuples(some.integers(1, 9), some.integers(1, 9)), min_size=1))
 points = some.lists(some.tuples(some.integers(1, 9), some.integers(1, 9)), min_size=1, max_size=4)
-patterns = some.one_of(some.builds(Pattern.mapped, cells, cells, all=some.booleans()), some.builds(Pattern.foreach, cells, cells),
-                       some.builds(Pattern.tuples, some.lists(some.tuples(points, points), min_size=1, max_size=3)))
+patterns = some.one_of(
+    some.builds(Pattern.mapped, cells, cells, all=some.booleans()),
+    some.builds(Pattern.foreach, cells, cells),
+    some.builds(Pattern.tuples, some.lists(some.tuples(points, points), min_size=1, max_size=3)),
+)
 ends = {"direction": some.sampled_from(["receptive", "projective"]), "probability": some.floats(0, 1)}
 sizes = some.integers(1, 9)
-arborizations = some.one_of(some.builds(Arborization.rect, sizes, sizes, **ends), some.builds(Arborization.ellipse, sizes, sizes, **ends),
-                            some.builds(Arborization.rect_window, some.tuples(sizes, sizes), some.tuples(sizes, sizes), **ends),
-                            some.builds(Arborization.ellipse_window, some.tuples(sizes, sizes), some.tuples(sizes, sizes), **ends),
-                            some.builds(Arborization.all, **ends), some.builds(Arborization.random, sizes, **ends))
+arborizations = some.one_of(
+    some.builds(Arborization.rect, sizes, sizes, **ends),
+    some.builds(Arborization.ellipse, sizes, sizes, **ends),
+    some.builds(Arborization.rect_window, some.tuples(sizes, sizes), some.tuples(sizes, sizes), **ends),
+    some.builds(Arborization.ellipse_window, some.tuples(sizes, sizes), some.tuples(sizes, sizes), **ends),
+    some.builds(Arborization.all, **ends),
+    some.builds(Arborization.random, sizes, **ends),
+)
 numbers = some.floats(0, 10)
-functions = some.one_of(some.builds(DistanceFunction.uniform, numbers), some.builds(DistanceFunction.linear, numbers, numbers),
-                        some.builds(DistanceFunction.gaussian, numbers, numbers, numbers), some.builds(DistanceFunction.random, numbers),
-                        some.builds(DistanceFunction.block, numbers, numbers, sizes, sizes))
+functions = some.one_of(
+    some.builds(DistanceFunction.uniform, numbers),
+    some.builds(DistanceFunction.linear, numbers, numbers),
+    some.builds(DistanceFunction.gaussian, numbers, numbers, numbers),
+    some.builds(DistanceFunction.random, numbers),
+    some.builds(DistanceFunction.block, numbers, numbers, sizes, sizes),
+)
 
 
 @settings(max_examples=100)
@@ -305,8 +323,9 @@ functions = some.one_of(some.builds(DistanceFunction.uniform, numbers), some.bui
 def test_everything_that_is_built_is_read_again(pattern, arborization, attenuation, delay, name):
     system = forage.System(name)
     brain = system.add_process("Brain")
-    made = system.connect(brain.add_group("A", 9, 9), brain.add_group("B", 9, 9), pattern=pattern, arborization=arborization,
-                          attenuation=attenuation, delay=delay)
+    made = system.connect(
+        brain.add_group("A", 9, 9), brain.add_group("B", 9, 9), pattern=pattern, arborization=arborization, attenuation=attenuation, delay=delay
+    )
     other = forage.System.parse(system.to_xml())
     assert other == system and other.to_xml() == system.to_xml()
     read = other.connections[0]

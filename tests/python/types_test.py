@@ -250,15 +250,18 @@ def assign(name, value):
     return lambda self, cells: setattr(cells, name, value) if cells.cycle == 3 else None
 
 
-@pytest.mark.parametrize("update, message", [
-    (assign("vm", numpy.zeros(3)), "'vm' has the shape \\(8,\\), and gets an array of the shape \\(3,\\)"),
-    (assign("vm", numpy.nan), "leaves nan in 'vm', in cell 0"),
-    (assign("exc", 1), "'exc' is read-only"),
-    (assign("wm", 1), "there is no state 'wm'"),
-    (lambda self, cells: cells.exc.__setitem__(0, 1) if cells.cycle == 3 else None, "read-only"),
-    (lambda self, cells: setattr(self, "kept", 1) if cells.cycle == 3 else None, "forage.state"),
-    (lambda self, cells: cells.vm.resize(2, refcheck=False) if cells.cycle == 3 else None, "changes the size of 'vm'"),
-])
+@pytest.mark.parametrize(
+    "update, message",
+    [
+        (assign("vm", numpy.zeros(3)), "'vm' has the shape \\(8,\\), and gets an array of the shape \\(3,\\)"),
+        (assign("vm", numpy.nan), "leaves nan in 'vm', in cell 0"),
+        (assign("exc", 1), "'exc' is read-only"),
+        (assign("wm", 1), "there is no state 'wm'"),
+        (lambda self, cells: cells.exc.__setitem__(0, 1) if cells.cycle == 3 else None, "read-only"),
+        (lambda self, cells: setattr(self, "kept", 1) if cells.cycle == 3 else None, "forage.state"),
+        (lambda self, cells: cells.vm.resize(2, refcheck=False) if cells.cycle == 3 else None, "changes the size of 'vm'"),
+    ],
+)
 def test_broken_contracts_are_errors(update, message):
     with pytest.raises(Exception, match=message):
         raise failing(update)
@@ -346,7 +349,7 @@ def test_states_begin_with_their_values(initial, width, height):
 
 
 def test_errors_of_the_compiler_have_places(tmp_path):
-    line = TWINS[:TWINS.index("0.9 * c.vm")].count("\n") + 1
+    line = TWINS[: TWINS.index("0.9 * c.vm")].count("\n") + 1
     with pytest.raises(forage.InputError) as caught:
         forage.build_plugin(TWINS.replace("0.9 * c.vm", "0.9 * c.wm"), name="wrong", directory=tmp_path)
     assert caught.value.file == str(tmp_path / "wrong.cpp") and caught.value.line == line and "wm" in str(caught.value)

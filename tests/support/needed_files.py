@@ -22,6 +22,6 @@ for test in json.loads(output("ctest", "--test-dir", build, "--show-only=json-v1
         if entry["name"] == "REQUIRED_FILES":
             words += entry["value"]
     for word in words:
-        if word.startswith(f"{build}/") and word[len(f"{build}/"):] in made:
-            needed.add(word[len(f"{build}/"):])
+        if word.startswith(f"{build}/") and word[len(f"{build}/") :] in made:
+            needed.add(word[len(f"{build}/") :])
 print("\n".join(sorted(needed)))

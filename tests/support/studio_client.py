@@ -36,8 +36,9 @@ class Studio:
     def __init__(self, forage, *arguments, cwd=None, state=None):
         self.folder = None if state else tempfile.TemporaryDirectory()
         environment = {**os.environ, 'XDG_STATE_HOME': state or self.folder.name}
-        self.child = subprocess.Popen([forage, 'studio', *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE if state else None,
-                                      text=True, cwd=cwd, env=environment)
+        self.child = subprocess.Popen(
+            [forage, 'studio', *arguments], stdout=subprocess.PIPE, stderr=subprocess.PIPE if state else None, text=True, cwd=cwd, env=environment
+        )
         while True:
             line = self.child.stdout.readline()
             assert line, 'the studio did not start'
@@ -65,9 +66,13 @@ class Page:
     def __init__(self, studio):
         self.socket = socket.create_connection(('127.0.0.1', studio.port), timeout=300)
         key = base64.b64encode(os.urandom(16)).decode()
-        self.socket.sendall((f'GET /ws HTTP/1.1\r\nHost: 127.0.0.1:{studio.port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n'
-                             f'Cookie: forage_{studio.port}={studio.token}\r\nSec-WebSocket-Key: {key}\r\n'
-                             'Sec-WebSocket-Version: 13\r\n\r\n').encode())
+        self.socket.sendall(
+            (
+                f'GET /ws HTTP/1.1\r\nHost: 127.0.0.1:{studio.port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n'
+                f'Cookie: forage_{studio.port}={studio.token}\r\nSec-WebSocket-Key: {key}\r\n'
+                'Sec-WebSocket-Version: 13\r\n\r\n'
+            ).encode()
+        )
         self.buffer = b''
         while b'\r\n\r\n' not in self.buffer:
             self.buffer += self.socket.recv(1 << 16)
@@ -80,8 +85,11 @@ class Page:
 
     def send(self, text):
         data = text.encode()
-        size = bytes([0x80 | len(data)]) if len(data) < 126 else (
-            b'\xfe' + struct.pack('>H', len(data)) if len(data) < 65536 else b'\xff' + struct.pack('>Q', len(data)))
+        size = (
+            bytes([0x80 | len(data)])
+            if len(data) < 126
+            else (b'\xfe' + struct.pack('>H', len(data)) if len(data) < 65536 else b'\xff' + struct.pack('>Q', len(data)))
+        )
         self.socket.sendall(b'\x81' + size + b'\0\0\0\0' + data)  # a mask of zeros
 
     def _take(self, count):
@@ -107,9 +115,9 @@ class Page:
                 raise ConnectionError('the studio has closed the connection')
         first, length = self._take(2)
         if length == 126:
-            length, = struct.unpack('>H', self._take(2))
+            (length,) = struct.unpack('>H', self._take(2))
         elif length == 127:
-            length, = struct.unpack('>Q', self._take(8))
+            (length,) = struct.unpack('>Q', self._take(8))
         data, kind = self._take(length), first & 15
         if kind == 8:
             raise ConnectionError('the studio has closed the connection')

@@ -16,6 +16,7 @@ def wait_for(condition, process=None):
 
 def wait_for_cycles(process):
     """Waits until a program has prepared its run: it catches Ctrl-C from then on."""
+
     def caught():
         return int(re.search(r"SigCgt:\s*(\w+)", pathlib.Path(f"/proc/{process.pid}/status").read_text())[1], 16) >> (signal.SIGINT - 1) & 1
 

@@ -28,9 +28,11 @@ def disagreements(scene, workers):
     for name, worker in workers.items():
         distance, speed, x, y, overlap = worker.ask("check")
         expected = expected or (distance, speed, x, y)
-        tests = {"what the rays measure": abs(distance / expected[0] - 1) < 0.1,
-                 "the robots' speed": abs(speed - expected[1]) < 0.25 * max(expected[1], 0.3),
-                 "overlaps": overlap < 0.005}
+        tests = {
+            "what the rays measure": abs(distance / expected[0] - 1) < 0.1,
+            "the robots' speed": abs(speed - expected[1]) < 0.25 * max(expected[1], 0.3),
+            "overlaps": overlap < 0.005,
+        }
         if scene in ("open", "corner"):
             tests["where the robot is"] = abs(x - expected[2]) < 0.05 and abs(y - expected[3]) < 0.05
         wrong += [f"{scene}: {name} differs in {what}" for what, right in tests.items() if not right]

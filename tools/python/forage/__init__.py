@@ -10,8 +10,7 @@
 
 from . import _forage
 from ._errors import Diagnostic, InputError, InputWarning, RunError
-from ._forage import (Arborization, DistanceFunction, Film, Group, Manipulation, Parameters, Pattern, Probe, Run, System, edit_file, open,
-                      resume)
+from ._forage import Arborization, DistanceFunction, Film, Group, Manipulation, Parameters, Pattern, Probe, Run, System, edit_file, open, resume
 from ._picture import Picture
 from ._recording import Recording
 
@@ -20,20 +19,71 @@ __version__ = _forage.__version__
 # Imported when they are used, as they need NumPy, so that the import of the package takes little time.
 _EXPERIMENT = ("Table", "experiment", "sweep")
 _OPTIMISE = ("Optimum", "optimise")
-_TYPES = ("Cells", "Plugin", "Ports", "Synapses", "TypeInfo", "build_plugin", "feedback", "input", "module", "neuron", "output", "parameter", "state",
-          "synapse", "types")
+_TYPES = (
+    "Cells",
+    "Plugin",
+    "Ports",
+    "Synapses",
+    "TypeInfo",
+    "build_plugin",
+    "feedback",
+    "input",
+    "module",
+    "neuron",
+    "output",
+    "parameter",
+    "state",
+    "synapse",
+    "types",
+)
 
-__all__ = ["Arborization", "Cells", "Diagnostic", "DistanceFunction", "Film", "Group", "InputError", "InputWarning", "Manipulation", "Optimum", "Parameters",
-           "Pattern", "Picture", "Plugin", "Ports", "Probe", "Recording", "Run", "RunError", "Synapses", "System", "Table", "TypeInfo",
-           "build_plugin", "edit_file", "experiment", "feedback", "input", "module", "neuron", "open", "optimise", "output", "parameter", "resume", "state", "sweep",
-           "synapse", "types"]
+__all__ = [
+    "Arborization",
+    "Cells",
+    "Diagnostic",
+    "DistanceFunction",
+    "Film",
+    "Group",
+    "InputError",
+    "InputWarning",
+    "Manipulation",
+    "Optimum",
+    "Parameters",
+    "Pattern",
+    "Picture",
+    "Plugin",
+    "Ports",
+    "Probe",
+    "Recording",
+    "Run",
+    "RunError",
+    "Synapses",
+    "System",
+    "Table",
+    "TypeInfo",
+    "build_plugin",
+    "edit_file",
+    "experiment",
+    "feedback",
+    "input",
+    "module",
+    "neuron",
+    "open",
+    "optimise",
+    "output",
+    "parameter",
+    "resume",
+    "state",
+    "sweep",
+    "synapse",
+    "types",
+]
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from ._experiment import Table, experiment, sweep
     from ._optimise import Optimum, optimise
-    from ._types import (Cells, Plugin, Ports, Synapses, TypeInfo, build_plugin, feedback, input, module, neuron, output, parameter, state, synapse,
-                         types)
+    from ._types import Cells, Plugin, Ports, Synapses, TypeInfo, build_plugin, feedback, input, module, neuron, output, parameter, state, synapse, types
 
 
 def __getattr__(name):

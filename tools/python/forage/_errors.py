@@ -11,8 +11,9 @@ class Diagnostic:
 
     __slots__ = ("severity", "message", "hint", "file", "line", "column", "text")
 
-    def __init__(self, severity: str, message: str, hint: str = "", file: str | None = None, line: int | None = None,
-                 column: int | None = None, text: str = "") -> None:
+    def __init__(
+        self, severity: str, message: str, hint: str = "", file: str | None = None, line: int | None = None, column: int | None = None, text: str = ""
+    ) -> None:
         self.severity = severity
         """"error" or "warning"."""
         self.message = message

@@ -67,8 +67,17 @@ class Table(numpy.ndarray[typing.Any, numpy.dtype[numpy.void]]):
         return table(self.dtype.names, self[:30].tolist()) + more
 
 
-def experiment(file: Path, *, directory: Path | None = None, plugins: typing.Iterable[Path] = (), jobs: int = 0, fresh: bool = False,
-               progress: Progress = None, executor: typing.Any = None, parts: int = 64) -> Table:
+def experiment(
+    file: Path,
+    *,
+    directory: Path | None = None,
+    plugins: typing.Iterable[Path] = (),
+    jobs: int = 0,
+    fresh: bool = False,
+    progress: Progress = None,
+    executor: typing.Any = None,
+    parts: int = 64,
+) -> Table:
     """Runs an experiment file as `forage experiment` does, and returns the Table of its runs.
 
     directory: for the results; forage-out/ and the name of the file without it. Runs that are finished there are not repeated, unless `fresh` is set.
@@ -127,12 +136,30 @@ def _execute(executor: typing.Any, parts: int, report: typing.Callable[[float, s
         before, parts, work = left, min(parts, left[1]), work._replace(fresh=False)
 
 
-def sweep(system: Path | _forage.System, world: Path | None = None, values: Values | None = None, *, seeds: int | typing.Iterable[int] = 1,
-          measure: Function | typing.Mapping[str, Measure] | None = None, cycles: int | None = None, seconds: float | None = None,
-          trials: int | None = None, until: str = "", trial_timeout: float = 300.0,
-          settings: typing.Mapping[str, typing.Any] | typing.Iterable[str] | None = None, plugins: typing.Iterable[Path] = (), noise: bool = True,
-          real_time_factor: float | None = None, confidence: Options | None = None, halving: Options | None = None, directory: Path | None = None,
-          jobs: int = 0, progress: Progress = None, executor: typing.Any = None, parts: int = 64) -> Table:
+def sweep(
+    system: Path | _forage.System,
+    world: Path | None = None,
+    values: Values | None = None,
+    *,
+    seeds: int | typing.Iterable[int] = 1,
+    measure: Function | typing.Mapping[str, Measure] | None = None,
+    cycles: int | None = None,
+    seconds: float | None = None,
+    trials: int | None = None,
+    until: str = "",
+    trial_timeout: float = 300.0,
+    settings: typing.Mapping[str, typing.Any] | typing.Iterable[str] | None = None,
+    plugins: typing.Iterable[Path] = (),
+    noise: bool = True,
+    real_time_factor: float | None = None,
+    confidence: Options | None = None,
+    halving: Options | None = None,
+    directory: Path | None = None,
+    jobs: int = 0,
+    progress: Progress = None,
+    executor: typing.Any = None,
+    parts: int = 64,
+) -> Table:
     """Runs a system with every combination of values and seeds, on all cores, and returns the Table of the runs.
 
         forage.sweep("reactive.iqr", "basic.world", {"Reactive/US.threshold": [0.2, 0.4]}, seeds=5, trials=10, measure={"success": {"success": "all"}})
@@ -180,8 +207,18 @@ def sweep(system: Path | _forage.System, world: Path | None = None, values: Valu
         if executor is not None:
             file, world, folder = os.path.abspath(file), world and os.path.abspath(world), os.path.abspath(folder)
             setup["plugins"] = [os.path.abspath(p) for p in setup["plugins"]]
-        description = dict(system=os.fspath(file), world="" if world is None else os.fspath(world), values=listed, seeds=_seeds(seeds), settings=_settings(settings), measures=declared, until=until,
-                           adaptations=adaptations, **length, **setup)
+        description = dict(
+            system=os.fspath(file),
+            world="" if world is None else os.fspath(world),
+            values=listed,
+            seeds=_seeds(seeds),
+            settings=_settings(settings),
+            measures=declared,
+            until=until,
+            adaptations=adaptations,
+            **length,
+            **setup,
+        )
         planned = _forage._Experiment(**description)
         if executor is not None:
             planned.missing(folder)  # tells all mistakes before anything is sent
@@ -228,8 +265,13 @@ class _Stopped(Exception):
 class _Work:
     """Runs whose measures are functions, in threads: Python continues while a run runs."""
 
-    def __init__(self, open_run: typing.Callable[[int, list[str]], _forage.Run], length: tuple[str, dict[str, typing.Any]] | None,
-                 declared: dict[str, dict[str, str]], functions: dict[str, Function]) -> None:
+    def __init__(
+        self,
+        open_run: typing.Callable[[int, list[str]], _forage.Run],
+        length: tuple[str, dict[str, typing.Any]] | None,
+        declared: dict[str, dict[str, str]],
+        functions: dict[str, Function],
+    ) -> None:
         self._open, self._length, self._declared, self._functions = open_run, length, declared, functions
         self._stop = threading.Event()
         self._parts: dict[int, float] = {}
@@ -266,10 +308,15 @@ class _Work:
                 value = function(run)
                 numbers.update(value if isinstance(value, dict) else {name: value})
             trials = run.trials if run.trial else None
-            result = {"status": "stopped" if stopped else "finished", "cycles": run.cycle, "seconds": run.seconds,
-                      "trials": None if trials is None else len(trials),
-                      "reached": None if trials is None else int(trials["reached_target"].sum()), "measures": numbers,
-                      "remark": stopped or run.divergence}
+            result = {
+                "status": "stopped" if stopped else "finished",
+                "cycles": run.cycle,
+                "seconds": run.seconds,
+                "trials": None if trials is None else len(trials),
+                "reached": None if trials is None else int(trials["reached_target"].sum()),
+                "measures": numbers,
+                "remark": stopped or run.divergence,
+            }
         self._parts[index] = 1
         return result
 

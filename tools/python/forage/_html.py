@@ -12,6 +12,7 @@ def plain(thing):
 
 def with_table(head, rows):
     """Shows what repr() gives and a table; no table of a run that is closed or running, or that does not compute these numbers."""
+
     def show(self):
         try:
             return plain(self) + folded(head, rows(self))
@@ -23,6 +24,7 @@ def with_table(head, rows):
 
 def table(head, rows):
     """A table; numbers are aligned on the right."""
+
     def cell(value, tag):
         side = "left" if isinstance(value, str) else "right"
         text = f"{value:.6g}" if isinstance(value, float) else str(value)
@@ -68,7 +70,7 @@ def recording(self):
 
 def _ends(rows, most=20):
     """The first and the last rows when there are more than `most`."""
-    return rows if len(rows) <= most else [*rows[:most // 2], *rows[-most // 2:]]
+    return rows if len(rows) <= most else [*rows[: most // 2], *rows[-most // 2 :]]
 
 
 def film(self):

@@ -28,9 +28,22 @@ class Optimum:
     history: numpy.ndarray[typing.Any, numpy.dtype[numpy.void]]
 
 
-def optimise(system: Path | _forage.System, world: Path | None, bounds: typing.Mapping[str, tuple[float, float]], *, cost: Cost,
-             measure: typing.Mapping[str, typing.Any], seeds: int | typing.Iterable[int] = 1, generations: int = 20, population: int | None = None,
-             method: str = "evolution", seed: int = 1, directory: Path | None = None, progress: Progress = None, **options: typing.Any) -> Optimum:
+def optimise(
+    system: Path | _forage.System,
+    world: Path | None,
+    bounds: typing.Mapping[str, tuple[float, float]],
+    *,
+    cost: Cost,
+    measure: typing.Mapping[str, typing.Any],
+    seeds: int | typing.Iterable[int] = 1,
+    generations: int = 20,
+    population: int | None = None,
+    method: str = "evolution",
+    seed: int = 1,
+    directory: Path | None = None,
+    progress: Progress = None,
+    **options: typing.Any,
+) -> Optimum:
     """Searches the values of parameters for which runs cost least.
 
         forage.optimise("reactive.iqr", "basic.world", {"Reactive/US.threshold": (0, 1)}, measure={"length": {"duration": "all"}}, cost="length", trials=5)
@@ -71,9 +84,17 @@ def optimise(system: Path | _forage.System, world: Path | None, bounds: typing.M
         generation += 1
         tried = limits[:, 0] + points * (limits[:, 1] - limits[:, 0])
         folder = None if directory is None else pathlib.Path(os.fspath(directory)) / f"generation-{generation}"
-        table = sweep(system, world, {tuple(names): [tuple(map(float, point)) for point in tried]}, measure=measure, seeds=all_seeds, directory=folder,
-                      progress=tell, **options)
-        costs = [_cost(cost, table[i * len(all_seeds):(i + 1) * len(all_seeds)]) for i in range(len(tried))]
+        table = sweep(
+            system,
+            world,
+            {tuple(names): [tuple(map(float, point)) for point in tried]},
+            measure=measure,
+            seeds=all_seeds,
+            directory=folder,
+            progress=tell,
+            **options,
+        )
+        costs = [_cost(cost, table[i * len(all_seeds) : (i + 1) * len(all_seeds)]) for i in range(len(tried))]
         history.extend((generation, *point, c) for point, c in zip(tried, costs))
         return numpy.array(costs)
 
@@ -109,8 +130,9 @@ def _evolution(evaluate: _Evaluate, parameters: int, generations: int, populatio
             raise _Failed from error
 
     try:
-        differential_evolution(costs, [(0, 1)] * parameters, init=first, maxiter=generations - 1, tol=0, atol=-1, polish=False, updating="deferred",
-                               vectorized=True, seed=seed)
+        differential_evolution(
+            costs, [(0, 1)] * parameters, init=first, maxiter=generations - 1, tol=0, atol=-1, polish=False, updating="deferred", vectorized=True, seed=seed
+        )
     except _Failed as failed:
         raise failed.__cause__ or failed
 

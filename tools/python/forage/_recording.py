@@ -16,8 +16,17 @@ class Recording:
     NumPy takes it as the array `data`.
     """
 
-    def __init__(self, source: str, label: str, cycles: NDArray[numpy.uint64], data: NDArray[numpy.float64], columns: Sequence[str],
-                 first: tuple[int, int], every: int, seconds_per_cycle: float) -> None:
+    def __init__(
+        self,
+        source: str,
+        label: str,
+        cycles: NDArray[numpy.uint64],
+        data: NDArray[numpy.float64],
+        columns: Sequence[str],
+        first: tuple[int, int],
+        every: int,
+        seconds_per_cycle: float,
+    ) -> None:
         self.source = source
         """What was recorded, such as "Bug/Light:act"."""
         self.label = label
@@ -89,6 +98,11 @@ class Recording:
         import quantities
 
         start = self.cycles[0] * self.seconds_per_cycle if len(self) else 0
-        return neo.AnalogSignal(self._table(), units="dimensionless", name=self.source, description=self.label,
-                                t_start=start * quantities.s,
-                                sampling_period=self.every * self.seconds_per_cycle * quantities.s)
+        return neo.AnalogSignal(
+            self._table(),
+            units="dimensionless",
+            name=self.source,
+            description=self.label,
+            t_start=start * quantities.s,
+            sampling_period=self.every * self.seconds_per_cycle * quantities.s,
+        )

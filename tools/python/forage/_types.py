@@ -137,7 +137,9 @@ class _Columns:
     def __setattr__(self, name: str, value: numpy.typing.ArrayLike) -> None:
         column = self.__dict__.get(name)
         if not isinstance(column, numpy.ndarray):
-            raise AttributeError(f"there is no state '{name}' to write; there is {self._names(True) or 'none'}; {name} = forage.state(0.0) in the class declares it")
+            raise AttributeError(
+                f"there is no state '{name}' to write; there is {self._names(True) or 'none'}; {name} = forage.state(0.0) in the class declares it"
+            )
         if value is not column:
             _assign(column, value, name)
 
@@ -322,14 +324,18 @@ class _Declared:
     def update_synapses(self, made: typing.Any, columns: dict[str, _Column], size: int) -> None:
         made.update(Synapses(columns, size))
 
-    def start_module(self, made: typing.Any, inputs: dict[str, _Column], shapes: dict[str, tuple[int, ...]], draws: typing.Any, cycle: int) -> dict[str, _Column]:
+    def start_module(
+        self, made: typing.Any, inputs: dict[str, _Column], shapes: dict[str, tuple[int, ...]], draws: typing.Any, cycle: int
+    ) -> dict[str, _Column]:
         ports = Ports(inputs, shapes, draws, cycle)
         if hasattr(made, "start"):
             made.start(ports)
         made.__dict__["_forage_started"] = True
         return ports._written
 
-    def update_module(self, made: typing.Any, inputs: dict[str, _Column], shapes: dict[str, tuple[int, ...]], draws: typing.Any, cycle: int) -> dict[str, _Column]:
+    def update_module(
+        self, made: typing.Any, inputs: dict[str, _Column], shapes: dict[str, tuple[int, ...]], draws: typing.Any, cycle: int
+    ) -> dict[str, _Column]:
         ports = Ports(inputs, shapes, draws, cycle)
         made.update(ports)
         return ports._written
@@ -391,11 +397,17 @@ def _decorator(kind: str, cls: typing.Any, name: str | None, label: str | None, 
 
 
 @typing.overload
-def neuron(cls: _Class) -> _Class: ...
+def neuron(cls: _Class) -> _Class:
+    ...
+
+
 @typing.overload
 def neuron(
     cls: None = None, *, name: str | None = None, label: str | None = None, doc: str | None = None, reads: typing.Sequence[str] | None = None
-) -> typing.Callable[[_Class], _Class]: ...
+) -> typing.Callable[[_Class], _Class]:
+    ...
+
+
 def neuron(
     cls: typing.Any = None, *, name: str | None = None, label: str | None = None, doc: str | None = None, reads: typing.Sequence[str] | None = None
 ) -> typing.Any:
@@ -414,18 +426,30 @@ def neuron(
 
 
 @typing.overload
-def synapse(cls: _Class) -> _Class: ...
+def synapse(cls: _Class) -> _Class:
+    ...
+
+
 @typing.overload
-def synapse(cls: None = None, *, name: str | None = None, label: str | None = None, doc: str | None = None) -> typing.Callable[[_Class], _Class]: ...
+def synapse(cls: None = None, *, name: str | None = None, label: str | None = None, doc: str | None = None) -> typing.Callable[[_Class], _Class]:
+    ...
+
+
 def synapse(cls: typing.Any = None, *, name: str | None = None, label: str | None = None, doc: str | None = None) -> typing.Any:
     """Declares a class as a synapse type, as neuron() does. Its method update(self, synapses) lets synapses learn and writes `synapses.synpot`; see Synapses."""
     return _decorator("synapse", cls, name, label, doc)
 
 
 @typing.overload
-def module(cls: _Class) -> _Class: ...
+def module(cls: _Class) -> _Class:
+    ...
+
+
 @typing.overload
-def module(cls: None = None, *, name: str | None = None, label: str | None = None, doc: str | None = None) -> typing.Callable[[_Class], _Class]: ...
+def module(cls: None = None, *, name: str | None = None, label: str | None = None, doc: str | None = None) -> typing.Callable[[_Class], _Class]:
+    ...
+
+
 def module(cls: typing.Any = None, *, name: str | None = None, label: str | None = None, doc: str | None = None) -> typing.Any:
     """Declares a class as a module type, as neuron() does. Its method update(self, ports) reads inputs and writes outputs once per cycle; see Ports.
 

@@ -60,8 +60,19 @@ def _agent(robot: str, system: typing.Any, sensors: typing.Any, motors: typing.A
 
 
 def _task(world: typing.Any, system: typing.Any, agents: typing.Any, options: typing.Any, every_robot: bool = False) -> dict[str, typing.Any]:
-    usual: dict[str, typing.Any] = {"action": "cell", "cycles_per_step": 5, "max_steps": 1000, "end_at_target": True, "speed": (1.0, 1.5), "seed": 1,
-             "settings": None, "plugins": (), "noise": True, "real_time_factor": None, "paths": False}
+    usual: dict[str, typing.Any] = {
+        "action": "cell",
+        "cycles_per_step": 5,
+        "max_steps": 1000,
+        "end_at_target": True,
+        "speed": (1.0, 1.5),
+        "seed": 1,
+        "settings": None,
+        "plugins": (),
+        "noise": True,
+        "real_time_factor": None,
+        "paths": False,
+    }
     unknown = set(options) - set(usual)
     if unknown:
         raise TypeError(f"unknown options: {', '.join(sorted(unknown))}; there are {', '.join(usual)}")
@@ -180,8 +191,18 @@ class BugEnv(_Rendered, Env):  # type: ignore[misc]
 
     metadata = {"render_modes": _render_modes, "render_fps": 5}
 
-    def __init__(self, world: _Path, system: _Path | None = None, *, sensors: _Ports = None,
-                 motors: _Ports = None, reward: typing.Any = None, robot: str = "", render_mode: str | None = None, **options: typing.Any) -> None:
+    def __init__(
+        self,
+        world: _Path,
+        system: _Path | None = None,
+        *,
+        sensors: _Ports = None,
+        motors: _Ports = None,
+        reward: typing.Any = None,
+        robot: str = "",
+        render_mode: str | None = None,
+        **options: typing.Any,
+    ) -> None:
         task = _task(world, system, [_agent(robot, system, sensors, motors, reward)], options)
         self._open(task, render_mode)
         self._reward = reward if callable(reward) else None
@@ -232,8 +253,17 @@ class BugParallelEnv(_Rendered, ParallelEnv):  # type: ignore[misc]
 
     metadata = {"render_modes": _render_modes, "render_fps": 5, "name": "forage_bug_v0", "is_parallelizable": True}
 
-    def __init__(self, world: _Path, system: _Path | None = None, *, sensors: _Ports = None,
-                 motors: _Ports = None, reward: typing.Any = None, render_mode: str | None = None, **options: typing.Any) -> None:
+    def __init__(
+        self,
+        world: _Path,
+        system: _Path | None = None,
+        *,
+        sensors: _Ports = None,
+        motors: _Ports = None,
+        reward: typing.Any = None,
+        render_mode: str | None = None,
+        **options: typing.Any,
+    ) -> None:
         def of(what: typing.Any, robot: str) -> typing.Any:
             return what[robot] if isinstance(what, dict) else what
 
@@ -267,8 +297,7 @@ class BugParallelEnv(_Rendered, ParallelEnv):  # type: ignore[misc]
         self.agents = list(self.possible_agents)
         if self.render_mode == "human":
             self.render()
-        return ({n: self._use.observation(i) for n, i in self._numbers.items()},
-                {n: {"reached_target": False} for n in self.agents})
+        return ({n: self._use.observation(i) for n, i in self._numbers.items()}, {n: {"reached_target": False} for n in self.agents})
 
     def step(self, actions: typing.Any) -> typing.Any:
         """Runs a step with the actions of all agents, and returns (observations, rewards, terminations, truncations, infos)."""
@@ -301,8 +330,19 @@ class BugVectorEnv(VectorEnv):  # type: ignore[misc]
     metadata = {"render_modes": [], "autoreset_mode": _next_step}
     _pool: _forage.AgentPool | None = None
 
-    def __init__(self, num_envs: int, world: _Path, system: _Path | None = None, *, sensors: _Ports = None,
-                 motors: _Ports = None, reward: typing.Any = None, robot: str = "", threads: int = 0, **options: typing.Any) -> None:
+    def __init__(
+        self,
+        num_envs: int,
+        world: _Path,
+        system: _Path | None = None,
+        *,
+        sensors: _Ports = None,
+        motors: _Ports = None,
+        reward: typing.Any = None,
+        robot: str = "",
+        threads: int = 0,
+        **options: typing.Any,
+    ) -> None:
         if callable(reward):
             raise InputError("the reward of worlds side by side is a source, such as 'mean(Bug/Light)', not a function")
         task = _task(world, system, [_agent(robot, system, sensors, motors, reward)], options)
