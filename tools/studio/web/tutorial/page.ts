@@ -50,9 +50,14 @@ export function readSetup(text: string): Setup {
 
 function setupHtml(setup: Setup, number: number): string {
   const choices = setup.choices.map(
-    (c) => `<div class="choices" role="group" aria-label="${escape(c.assignment)}"><span>${escape(c.assignment)}</span> ${c.values.map((v) => `<button type="button" class="outlined" data-set="${escape(`${c.assignment}=${v}`)}" aria-label="${escape(`${c.assignment} = ${v}`)}">${escape(v)}</button>`).join('')}</div>`,
+    (c) =>
+      `<div class="choices" role="group" aria-label="${escape(c.assignment)}"><span>${escape(c.assignment)}</span> ${
+        c.values.map((v) => `<button type="button" class="outlined" data-set="${escape(`${c.assignment}=${v}`)}" aria-label="${escape(`${c.assignment} = ${v}`)}">${escape(v)}</button>`).join('')
+      }</div>`,
   );
-  return `<section class="setup" data-setup="${number}" aria-label="Set-up ${number + 1}"><button type="button" class="primary" data-open="${number}">Set it up</button><small>${escape(setup.system)} in ${escape(setup.world)}</small><p>${inline(setup.say)}</p>${choices.join('')}</section>\n`;
+  return `<section class="setup" data-setup="${number}" aria-label="Set-up ${number + 1}"><button type="button" class="primary" data-open="${number}">Set it up</button><small>${escape(setup.system)} in ${escape(setup.world)}</small><p>${
+    inline(setup.say)
+  }</p>${choices.join('')}</section>\n`;
 }
 const inline = (text: string) => new Marked({ renderer: { html: ({ text }) => escape(text) } }).parseInline(text) as string;
 

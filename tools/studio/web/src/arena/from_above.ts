@@ -47,7 +47,7 @@ export function drawWorld(c: Context, t: View, world: WorldMessage, live: LiveWo
   });
   world.objects.forEach((o, k) => {
     const pose = live.pose(world.robots.length + k);
-    if (pose) for (const solid of o.solids) drawSolid(c, t, solid, ...placed(solid, pose));
+    if (pose) { for (const solid of o.solids) drawSolid(c, t, solid, ...placed(solid, pose)); }
   });
 }
 
@@ -107,8 +107,7 @@ function drawTrail(c: Context, t: View, trail: Trail, colour: string, dash: numb
 }
 
 /** Brighter where the robot senses more. */
-const rayColour = (light: boolean, activity: number): string =>
-  light ? `rgb(255 226 92 / ${0.1 + 0.85 * Math.min(1, 2 * activity)})` : `rgb(120 170 220 / ${0.1 + 0.8 * Math.min(1, 2 * activity)})`;
+const rayColour = (light: boolean, activity: number): string => light ? `rgb(255 226 92 / ${0.1 + 0.85 * Math.min(1, 2 * activity)})` : `rgb(120 170 220 / ${0.1 + 0.8 * Math.min(1, 2 * activity)})`;
 
 function drawRays(c: Context, t: View, scan: ArrayLike<number>): void {
   c.lineWidth = 1;

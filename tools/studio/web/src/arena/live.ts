@@ -88,11 +88,10 @@ export class LiveWorld {
     return this.each(world.robots, this.trails, (name) =>
       streams.subscribe(`${this.prefix}world:trail:${name}`, 'append', (block) => {
         let trail = this.trails.get(name);
-        if (!trail) this.trails.set(name, (trail = new Trail()));
+        if (!trail) this.trails.set(name, trail = new Trail());
         trail.add(block.rows, block.columns, block.values);
         this.changed();
-      }),
-    );
+      }));
   }
 
   private newest(streams: Source, source: string, to: Map<string, ArrayLike<number>>, name: string): () => void {

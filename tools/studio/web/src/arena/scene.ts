@@ -1,7 +1,30 @@
 // The world in space, with three.js. Lengths are metres, z is up. Loaded only when the view in space is chosen.
 import {
-  AmbientLight, Box3, BoxGeometry, BufferAttribute, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DirectionalLight, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial, MeshLambertMaterial,
-  Object3D, PerspectiveCamera, PlaneGeometry, PointLight, Scene, SphereGeometry, SRGBColorSpace, Vector3, type Material, type Texture,
+  AmbientLight,
+  Box3,
+  BoxGeometry,
+  BufferAttribute,
+  BufferGeometry,
+  Color,
+  ConeGeometry,
+  CylinderGeometry,
+  DirectionalLight,
+  Group,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshBasicMaterial,
+  MeshLambertMaterial,
+  Object3D,
+  PerspectiveCamera,
+  PlaneGeometry,
+  PointLight,
+  Scene,
+  SphereGeometry,
+  SRGBColorSpace,
+  Vector3,
+  type Material,
+  type Texture,
 } from 'three';
 import type { Solid, WorldMessage } from '../protocol/messages';
 import { placed } from './from_above';
@@ -75,7 +98,7 @@ export class WorldScene {
       o.solids.flatMap((s) => {
         const mesh = meshOf(s.kind, s.size, new Color(s.color));
         return mesh ? [this.put(mesh, s)] : [];
-      }),
+      })
     );
     this.robots = world.robots.map((r, i) => {
       const arrow = new Mesh(new ConeGeometry(r.radius * 0.7, r.radius * 1.7, 3).rotateZ(-Math.PI / 2).scale(1, 1, 0.15), new MeshBasicMaterial({ color: robotColour(i) }));
@@ -109,7 +132,7 @@ export class WorldScene {
         mesh.rotation.z = yaw;
       });
     });
-    if (shown.rays) for (const scan of live.scans.values()) this.addRays(scan);
+    if (shown.rays) { for (const scan of live.scans.values()) this.addRays(scan); }
     this.rays.show();
     this.world.robots.forEach((r, i) => {
       const colour = new Color(robotColour(i));

@@ -14,16 +14,16 @@ export class Trail {
       if (n >= 0 && this.trial[n] === trial && Math.hypot(this.x[n]! - x, this.y[n]! - y) < 0.02) continue;
       this.x.push(x), this.y.push(y), this.trial.push(trial);
     }
-    if (this.x.length > maxPoints) for (const a of [this.x, this.y, this.trial]) a.splice(0, a.length - keptPoints);
+    if (this.x.length > maxPoints) { for (const a of [this.x, this.y, this.trial]) a.splice(0, a.length - keptPoints); }
   }
 
   /** Calls `line` with the first and the last index of each unbroken piece, and its opacity: older trials are fainter. */
   pieces(line: (first: number, last: number, opacity: number) => void): void {
     const newest = this.trial[this.trial.length - 1] ?? 0;
-    for (let i = 0; i < this.x.length; ) {
+    for (let i = 0; i < this.x.length;) {
       const first = i, trial = this.trial[i]!;
       // A robot that is reset or moved jumps.
-      for (i++; i < this.x.length && this.trial[i] === trial && Math.hypot(this.x[i]! - this.x[i - 1]!, this.y[i]! - this.y[i - 1]!) < 0.5; ) i++;
+      for (i++; i < this.x.length && this.trial[i] === trial && Math.hypot(this.x[i]! - this.x[i - 1]!, this.y[i]! - this.y[i - 1]!) < 0.5;) i++;
       line(first, i - 1, Math.max(0.12, 0.9 - 0.12 * (newest - trial)));
     }
   }

@@ -35,7 +35,7 @@ const tables = new Map<MapName, Uint32Array>();
 /** 256 colours as they lie in an ImageData. */
 export function colourTable(name: MapName): Uint32Array {
   let table = tables.get(name);
-  if (!table) tables.set(name, (table = build(name)));
+  if (!table) tables.set(name, table = build(name));
   return table;
 }
 

@@ -105,14 +105,19 @@ export function linesSvg(x: ArrayLike<number>, lines: { label: string; colour: s
   const paths = lines.map((l) => {
     let d = '', pen = 'M';
     for (let i = 0; i < x.length; i++) {
-      if (!Number.isFinite(l.y[i]!)) { pen = 'M'; continue; }
+      if (!Number.isFinite(l.y[i]!)) {
+        pen = 'M';
+        continue;
+      }
       d += `${pen}${px(x[i]!)} ${py(l.y[i]!)}`;
       pen = 'L';
     }
     return `<path d="${d}" fill="none" stroke="${l.colour}" stroke-width="1.5"/>`;
   });
   const keys = lines.map((l, i) => `<text x="${56 + i * 180}" y="14" fill="${l.colour}">${escape(l.label)}</text>`);
-  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" font-family="sans-serif" font-size="11">${keys.join('')}<text x="4" y="26">${high.toPrecision(3)}</text><text x="4" y="${height - 24}">${low.toPrecision(3)}</text><text x="50" y="${height - 6}">${x0.toFixed(1)} s</text><text x="${width - 50}" y="${height - 6}">${x1.toFixed(1)} s</text>${paths.join('')}</svg>\n`;
+  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" font-family="sans-serif" font-size="11">${keys.join('')}<text x="4" y="26">${high.toPrecision(3)}</text><text x="4" y="${height - 24}">${
+    low.toPrecision(3)
+  }</text><text x="50" y="${height - 6}">${x0.toFixed(1)} s</text><text x="${width - 50}" y="${height - 6}">${x1.toFixed(1)} s</text>${paths.join('')}</svg>\n`;
 }
 
 export function csv(header: string[], rows: Iterable<ArrayLike<number | string>>): string {

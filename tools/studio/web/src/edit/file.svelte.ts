@@ -30,7 +30,10 @@ const world = () => worldFile.document?.file ?? model.world?.file ?? '';
 const tasks: Record<FileAction, (process: string) => FileTask> = {
   open: () => ({ title: 'Open a system', verb: 'Open', files: /\.(iqr|xml|world)$/, act: (system) => request('open', { system, world: fileDialog.world.trim() }) }),
   'save as': () => ({
-    title: 'Save as', verb: 'Save', files: /\.(iqr|xml)$/, ending: '.iqr',
+    title: 'Save as',
+    verb: 'Save',
+    files: /\.(iqr|xml)$/,
+    ending: '.iqr',
     name: baseName(editing.backupOf ?? editing.file) || `${model.system?.name || 'system'}.iqr`,
     folder: editing.shipped ? '.' : '', // a system that comes with Forage is saved where the studio was started
     act: async (file, overwrite) => {
@@ -41,21 +44,30 @@ const tasks: Record<FileAction, (process: string) => FileTask> = {
   import: () => ({ title: 'Import a process', verb: 'Import', files: /\.(iqrprocess|iqr)$/i, act: (file) => request('import', { file, link: false }) }),
   link: () => ({ title: 'Link a process', verb: 'Link', files: /\.(iqrprocess|iqr)$/i, act: (file) => request('import', { file, link: true }) }),
   export: (process) => ({
-    title: 'Export the process', verb: 'Export', files: /\.iqrprocess$/i,
+    title: 'Export the process',
+    verb: 'Export',
+    files: /\.iqrprocess$/i,
     name: `${model.processes.find((p) => p.id === process)?.name}.iqrProcess`,
     act: (file, overwrite) => request('export', { process, file, overwrite }),
   }),
   new: () => ({ title: 'New system', verb: 'Create', files: /\.world$/, act: () => request('new', { name: fileDialog.name.trim() || 'New system', world: fileDialog.world.trim() }) }),
   // A world finds its models from its own folder.
   world: () => ({
-    title: 'Another world', verb: 'Open', files: /\.world$/, folder: folderOf(world()),
+    title: 'Another world',
+    verb: 'Open',
+    files: /\.world$/,
+    folder: folderOf(world()),
     act: async (file) => {
       await request('world_open', { world: file });
       actions.notify('info', `The run restarts in ${baseName(file)}.`);
     },
   }),
   'save the world': () => ({
-    title: 'Save the world as', verb: 'Save', ending: '.world', name: baseName(world()), folder: folderOf(world()),
+    title: 'Save the world as',
+    verb: 'Save',
+    ending: '.world',
+    name: baseName(world()),
+    folder: folderOf(world()),
     act: async (file, overwrite) => saved(await request('world_save', { file, overwrite })),
   }),
 };
@@ -205,7 +217,9 @@ export const saveActive = () => (inWorld() && worldFile.dirty ? saveWorld() : sa
 export const saveActiveAs = () => fileDialog.open(inWorld() ? 'save the world' : 'save as');
 
 /** What both this page and another program have changed, when a merge was tried; empty otherwise. */
-class Outside { conflict = $state('') }
+class Outside {
+  conflict = $state('');
+}
 export const outside = new Outside();
 
 /** What to do when another program wrote the file. A merge that cannot be made says why, and asks again. */

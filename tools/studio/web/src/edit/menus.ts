@@ -61,7 +61,10 @@ function itemMenu(id: string): Entries {
   const first: Entries = [{ label: 'Properties', keys: 'Enter', act: () => properties(id) }, { label: 'Rename', keys: 'F2', act: () => rename(id) }];
   if (item.kind === 'group') {
     const path = item.group.path;
-    first.push({ label: 'Connect…', act: () => (tools.dialog = { source: id, kind: 'excitatory' }) }, null, { label: 'Space plot', act: () => dock.plot({ kind: 'space', item: path }) }, { label: 'Time plot', act: () => dock.plot({ kind: 'time', sources: [`mean(${path})`] }) }, { label: 'Drive by hand', act: () => dock.plot({ kind: 'manipulate', item: path }) });
+    first.push({ label: 'Connect…', act: () => (tools.dialog = { source: id, kind: 'excitatory' }) }, null, { label: 'Space plot', act: () => dock.plot({ kind: 'space', item: path }) }, {
+      label: 'Time plot',
+      act: () => dock.plot({ kind: 'time', sources: [`mean(${path})`] }),
+    }, { label: 'Drive by hand', act: () => dock.plot({ kind: 'manipulate', item: path }) });
   } else if (item.kind === 'process') {
     first.push({ label: 'Show its groups', act: () => (selection.process = id) }, { label: 'Export…', act: () => fileDialog.open('export', id) });
   } else {

@@ -11,8 +11,7 @@ export async function attempt(operations: Operation | Operation[], title?: strin
 }
 
 /** The same, which shows what is wrong, and then resolves with undefined. */
-export const edit = (operations: Operation | Operation[], title?: string, merge?: string): Promise<(string | null)[] | undefined> =>
-  attempt(operations, title, merge).catch((error: Error) => void actions.notify('error', error.message));
+export const edit = (operations: Operation | Operation[], title?: string, merge?: string): Promise<(string | null)[] | undefined> => attempt(operations, title, merge).catch((error: Error) => void actions.notify('error', error.message));
 
 /** Sets a parameter of items, in the document and in the run. */
 export function setParameter(ids: string[], p: ParameterInfo, value: ParameterValue): void {

@@ -34,8 +34,7 @@ export function viewOf(items: WorldItem[], shown: [number, number, number, numbe
 }
 
 /** The items of the map, the largest first, so that they lie below. A floor without bounds has no end, and is not drawn. */
-export const drawn = (items: WorldItem[]): WorldItem[] =>
-  items.filter((i) => i.placed && !(i.kind === 'floor' && i.parts.length === 0)).sort((a, b) => Number(b.kind === 'floor') - Number(a.kind === 'floor') || reach(b) - reach(a));
+export const drawn = (items: WorldItem[]): WorldItem[] => items.filter((i) => i.placed && !(i.kind === 'floor' && i.parts.length === 0)).sort((a, b) => Number(b.kind === 'floor') - Number(a.kind === 'floor') || reach(b) - reach(a));
 
 /** The view zoomed by a factor around a place of the screen's coordinates (y downwards). */
 export function zoomed(v: View, factor: number, x: number, y: number): View {

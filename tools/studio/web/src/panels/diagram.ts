@@ -180,8 +180,7 @@ function setLanes(lines: PageLine[], boxes: Map<string, PageBox>): void {
   }
   for (const l of others) {
     const near = (other: Point[]) => nearestPart(other, middleOfLongest(points(l))).distance < 8;
-    do l.lane++;
-    while (l.lane < 64 && placesOf(l).some(near));
+    do l.lane++; while (l.lane < 64 && placesOf(l).some(near));
     placesOf(l).push(points(l));
   }
 }
@@ -269,5 +268,4 @@ export function facingAnchor(box: Box, other: Box | Point): number {
 /** Between which vertices a point on a line lies: the index at which a new vertex is inserted. */
 export const segmentAt = (points: Point[], p: Point): number => nearestPart(points, p).part;
 
-export const inside = (b: Box, p: Point, margin = 0): boolean =>
-  p.x >= b.x - margin && p.x <= b.x + b.width + margin && p.y >= b.y - margin && p.y <= b.y + b.height + margin;
+export const inside = (b: Box, p: Point, margin = 0): boolean => p.x >= b.x - margin && p.x <= b.x + b.width + margin && p.y >= b.y - margin && p.y <= b.y + b.height + margin;

@@ -39,7 +39,9 @@ function boxSvg(b: PageBox, process: Process | null): string {
   const item = b.item as Group | Process;
   if (b.phantom) return rect(`rx="7" fill="#f4f3ef" stroke="${muted}" stroke-dasharray="4 3"`) + texts(box, wrapped((item as Group).path.replace('/', '/ '), 15, 2).map((l) => l.replace('/ ', '/')), 10, `fill="${ink}"`, 2);
   const own = hexColour(item.color) && !/^#f{6}$/i.test(item.color);
-  const about = 'groups' in item ? [`${item.groups.length} ${item.groups.length === 1 ? 'group' : 'groups'}`, ...(item.module ? [item.enabled ? 'module' : 'module off'] : []), ...(item.linked ? ['linked'] : [])] : [item.places ? `${item.cells} cells` : `${item.width} × ${item.height}`];
+  const about = 'groups' in item
+    ? [`${item.groups.length} ${item.groups.length === 1 ? 'group' : 'groups'}`, ...(item.module ? [item.enabled ? 'module' : 'module off'] : []), ...(item.linked ? ['linked'] : [])]
+    : [item.places ? `${item.cells} cells` : `${item.width} × ${item.height}`];
   const links = process && !('groups' in item) ? moduleLinks(process, item.id) : { from: [], to: [] };
   const lines = wrapped(item.name, links.from.length ? 10 : 12, 3);
   // In the colour that the original has for them: from the module above, to it below.
@@ -66,7 +68,9 @@ export function pageSvg(boxes: Iterable<PageBox>, lines: PageLine[], process: Pr
   const corners: Point[] = [...[...all.values()].flatMap(({ box }) => [box, { x: box.x + box.width, y: box.y + box.height }]), ...drawn.flatMap((d) => d.points)];
   const [left, top, right, bottom] = corners.length ? [Math.min(...corners.map((p) => p.x)), Math.min(...corners.map((p) => p.y)), Math.max(...corners.map((p) => p.x)), Math.max(...corners.map((p) => p.y))] : [0, 0, 100, 100];
   const width = right - left + 2 * margin, height = bottom - top + 2 * margin;
-  const markers = Object.entries(kinds).map(([kind, colour]) => `<marker id="${kind}" viewBox="0 0 10 10" refX="9" refY="5" markerWidth="11" markerHeight="11" markerUnits="userSpaceOnUse" orient="auto"><path d="M0 1 10 5 0 9z" fill="${colour}"/></marker>`);
+  const markers = Object.entries(kinds).map(([kind, colour]) =>
+    `<marker id="${kind}" viewBox="0 0 10 10" refX="9" refY="5" markerWidth="11" markerHeight="11" markerUnits="userSpaceOnUse" orient="auto"><path d="M0 1 10 5 0 9z" fill="${colour}"/></marker>`
+  );
   const paths = drawn.map(({ line, points }) => {
     const { kind } = line.connection, title = line.members.map((c) => c.name).join(', ');
     const at = points[Math.floor((points.length - 1) / 2)]!, next = points[Math.floor((points.length - 1) / 2) + 1]!;
@@ -74,5 +78,9 @@ export function pageSvg(boxes: Iterable<PageBox>, lines: PageLine[], process: Pr
     return `<g><title>${escape(title)}</title><path d="${roundedPath(points)}" fill="none" stroke="${kinds[kind]}" stroke-width="1.6" marker-end="url(#${kind})"/>${count}</g>`;
   });
   const below = [...all.values()].filter((b) => b.comment), above = [...all.values()].filter((b) => !b.comment);
-  return `<svg xmlns="http://www.w3.org/2000/svg" width="${number(width)}" height="${number(height)}" viewBox="${number(left - margin)} ${number(top - margin)} ${number(width)} ${number(height)}" font-family="sans-serif"><defs>${markers.join('')}</defs><rect x="${number(left - margin)}" y="${number(top - margin)}" width="${number(width)}" height="${number(height)}" fill="#ffffff"/>${below.map((b) => boxSvg(b, process)).join('')}${paths.join('')}${above.map((b) => boxSvg(b, process)).join('')}</svg>\n`;
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${number(width)}" height="${number(height)}" viewBox="${number(left - margin)} ${number(top - margin)} ${number(width)} ${number(height)}" font-family="sans-serif"><defs>${
+    markers.join('')
+  }</defs><rect x="${number(left - margin)}" y="${number(top - margin)}" width="${number(width)}" height="${number(height)}" fill="#ffffff"/>${below.map((b) => boxSvg(b, process)).join('')}${paths.join('')}${
+    above.map((b) => boxSvg(b, process)).join('')
+  }</svg>\n`;
 }

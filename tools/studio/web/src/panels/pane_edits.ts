@@ -95,7 +95,7 @@ export class PaneEdits {
     const all = [...this.pane.boxes.values()];
     const seen = this.pane.canvas!.getBoundingClientRect();
     const middle = this.pane.stage!.toPage({ clientX: seen.left + seen.width / 2, clientY: seen.top + seen.height / 2 });
-    for (let ring = 0; ; ring++)
+    for (let ring = 0;; ring++)
       for (let row = -ring; row <= ring; row++)
         for (let column = -ring; column <= ring; column++) {
           const p = { x: middle.x + 160 * column, y: middle.y + 160 * row };

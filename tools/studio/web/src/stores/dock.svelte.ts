@@ -43,7 +43,13 @@ class Dock {
       inactive: where.inactive,
       ...(where.width ? { initialWidth: where.width } : {}),
       ...(where.height ? { initialHeight: where.height } : {}),
-      ...(where.floating ? { floating: { width: 380, height: 300 } } : beside ? { position: { referencePanel: beside, direction: where.direction ?? 'within' } } : where.direction && where.direction !== 'within' ? { position: { direction: where.direction } } : {}),
+      ...(where.floating
+        ? { floating: { width: 380, height: 300 } }
+        : beside
+        ? { position: { referencePanel: beside, direction: where.direction ?? 'within' } }
+        : where.direction && where.direction !== 'within'
+        ? { position: { direction: where.direction } }
+        : {}),
     });
     return id;
   }

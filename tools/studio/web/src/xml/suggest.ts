@@ -44,7 +44,11 @@ export function suggest(before: string, after: string, known: Knowledge): Sugges
     case 'content':
       return { kind: 'element', from: before.length, all: elements(place.parent, before, after, known).map((s) => ({ ...s, text: `<${s.text}`, template: `<${s.template ?? s.text}` })) };
     case 'element':
-      return { kind: 'element', from: place.from, all: [...elements(place.parent, before, after, known), ...(before.endsWith('<') && place.parent ? [{ text: `/${place.parent.name}`, template: `/${place.parent.name}>`, detail: 'end tag' }] : [])] };
+      return {
+        kind: 'element',
+        from: place.from,
+        all: [...elements(place.parent, before, after, known), ...(before.endsWith('<') && place.parent ? [{ text: `/${place.parent.name}`, template: `/${place.parent.name}>`, detail: 'end tag' }] : [])],
+      };
     case 'close':
       return place.parent && { kind: 'close', from: place.from, all: [{ text: place.parent.name, template: after.startsWith('>') ? place.parent.name : `${place.parent.name}>` }] };
     case 'attribute':
@@ -85,7 +89,13 @@ function attributes(tag: Tag, after: string, { vocabulary }: Knowledge): Suggest
   // Attributes that follow in the same tag.
   const rest = /^[^<>]*/.exec(after)![0].matchAll(/([\w:.-]+)\s*=/g);
   const there = new Set([...tag.attributes.map((a) => a.name), ...[...rest].map((m) => m[1]!)]);
-  return (elementRule(vocabulary, tag.name)?.attributes ?? []).filter((a) => !there.has(a.name)).map((a) => ({ text: a.name, template: `${a.name}="#{}"`, detail: a.required ? 'required' : a.default, doc: meaning(a.doc, attributeFacts(a)), first: a.required }));
+  return (elementRule(vocabulary, tag.name)?.attributes ?? []).filter((a) => !there.has(a.name)).map((a) => ({
+    text: a.name,
+    template: `${a.name}="#{}"`,
+    detail: a.required ? 'required' : a.default,
+    doc: meaning(a.doc, attributeFacts(a)),
+    first: a.required,
+  }));
 }
 
 const typesOf = (types: TypesResult, owner: string | undefined): TypeInfo[] => ({ Neuron: types.neurons, Synapse: types.synapses, Module: types.modules })[owner ?? ''] ?? [];
@@ -109,7 +119,12 @@ function values(tag: Tag, attribute: string, text: string, known: Knowledge): Su
       return typeList(types.modules);
     case 'parameter': {
       const there = new Set((holder?.children ?? []).filter((c) => c !== tag).map((c) => valueOf(c, 'name')));
-      return (type?.parameters ?? []).filter((p) => !there.has(p.name)).map((p) => ({ text: p.name, detail: `${p.default}${p.unit ? ` ${p.unit}` : ''}`, doc: meaning(wholeDoc(p.label === p.name ? '' : p.label, p.doc), parameterFacts(p)), words: p.label }));
+      return (type?.parameters ?? []).filter((p) => !there.has(p.name)).map((p) => ({
+        text: p.name,
+        detail: `${p.default}${p.unit ? ` ${p.unit}` : ''}`,
+        doc: meaning(wholeDoc(p.label === p.name ? '' : p.label, p.doc), parameterFacts(p)),
+        words: p.label,
+      }));
     }
     case 'value': {
       const p = type?.parameters.find((q) => q.name === valueOf(tag, 'name'));

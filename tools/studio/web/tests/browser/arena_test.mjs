@@ -15,7 +15,7 @@ async function place(says, name) {
   return { x, y, heading };
 }
 
-export default async function ({ context, start, open, faults, step }) {
+export default async function({ context, start, open, faults, step }) {
   const address = await start(['systems/team_a.iqr', 'systems/team_b.iqr', '--world', 'systems/worlds/team_arena.world']).address;
   const { page, arena, view, says } = await shown(await open(address));
   const says_ = async (text) => says.filter({ hasText: text }).waitFor();
@@ -91,7 +91,7 @@ export default async function ({ context, start, open, faults, step }) {
   step('without WebGL the arena says so, and is shown from above');
   await context.addInitScript(() => {
     const getContext = HTMLCanvasElement.prototype.getContext;
-    HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+    HTMLCanvasElement.prototype.getContext = function(kind, ...more) {
       return kind.startsWith('webgl') ? null : getContext.call(this, kind, ...more);
     };
   });

@@ -22,7 +22,7 @@ const selection = {
   'Const Speed': { at: [400, 520], size: [1, 1], type: 'neuronRandomSpike', set: { probability: 1, spkAmpl: 1 } },
 };
 
-export default async function ({ forage, folder, start, open, faults, step }) {
+export default async function({ forage, folder, start, open, faults, step }) {
   const page = await open(await start(['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']).address);
   const run = (...args) => execFileSync(forage, args, { cwd: folder, encoding: 'utf8' });
   const diagram = page.getByRole('group', { name: 'Diagram' });
@@ -188,11 +188,12 @@ export default async function ({ forage, folder, start, open, faults, step }) {
   const plain = (system) => system.connections.map(({ id, notes, synapse, ...c }) => ({ ...c, synapse: { ...synapse, parameters: { weight: '1', ...synapse.parameters } } })).sort((a, b) => a.name.localeCompare(b.name));
   assert.deepEqual(plain(built), plain(shipped));
   // describe counts tuples: their cells are compared in the files.
-  const patterns = (file) => page.evaluate((text) => {
-    const system = new DOMParser().parseFromString(text, 'text/xml');
-    const places = (e) => [...e.querySelectorAll('Point')].map((p) => `${p.getAttribute('x')},${p.getAttribute('y')}`).join(' ');
-    return [...system.querySelectorAll('Connection')].map((c) => [c.getAttribute('name'), [...c.querySelectorAll('Tuple')].map((t) => `${places(t.querySelector('SourceList'))}:${places(t.querySelector('TargetList'))}`)]).sort();
-  }, readFileSync(join(folder, file), 'utf8'));
+  const patterns = (file) =>
+    page.evaluate((text) => {
+      const system = new DOMParser().parseFromString(text, 'text/xml');
+      const places = (e) => [...e.querySelectorAll('Point')].map((p) => `${p.getAttribute('x')},${p.getAttribute('y')}`).join(' ');
+      return [...system.querySelectorAll('Connection')].map((c) => [c.getAttribute('name'), [...c.querySelectorAll('Tuple')].map((t) => `${places(t.querySelector('SourceList'))}:${places(t.querySelector('TargetList'))}`)]).sort();
+    }, readFileSync(join(folder, file), 'utf8'));
   assert.deepEqual(await patterns(mine), await patterns('systems/reactive_foraging.iqr'));
   run('run', mine, '--world', 'systems/worlds/basic_arena.world', '--cycles', '200');
   assert.deepEqual(faults, []);

@@ -4,7 +4,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { accessible, find, picture, until } from './support.mjs';
 
-export default async function ({ folder, context, start, open, faults, step }) {
+export default async function({ folder, context, start, open, faults, step }) {
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);
   const file = join(folder, 'systems/reactive_foraging.iqr');
   const original = readFileSync(file, 'utf8');
@@ -41,11 +41,12 @@ export default async function ({ folder, context, start, open, faults, step }) {
     const all = await canvas.boundingBox();
     return [all.x + all.width * 0.25, all.y + all.height - 90];
   };
-  const along = (connection, part) => page.evaluate(([c, p]) => {
-    const path = document.querySelector(`g[data-connection="${c}"] .wide`);
-    const at = path.getPointAtLength(path.getTotalLength() * p).matrixTransform(path.getScreenCTM());
-    return [at.x, at.y];
-  }, [connection, part]);
+  const along = (connection, part) =>
+    page.evaluate(([c, p]) => {
+      const path = document.querySelector(`g[data-connection="${c}"] .wide`);
+      const at = path.getPointAtLength(path.getTotalLength() * p).matrixTransform(path.getScreenCTM());
+      return [at.x, at.y];
+    }, [connection, part]);
   const bend = async (connection, part = 0.5) => {
     await page.keyboard.down('Control');
     await page.mouse.click(...(await along(connection, part)));
@@ -59,14 +60,15 @@ export default async function ({ folder, context, start, open, faults, step }) {
     await page.mouse.up();
   };
   /** The place and the size of the page in its pane, when they are the same in two pictures in a row. */
-  const resting = () => page.evaluate(async () => {
-    const transform = () => document.querySelector('.svelte-flow__viewport').style.transform;
-    for (let was = ''; was !== transform(); ) {
-      was = transform();
-      for (let i = 0; i < 6; i++) await new Promise(requestAnimationFrame);
-    }
-    return Number(/scale\(([\d.]+)\)/.exec(transform())[1]);
-  });
+  const resting = () =>
+    page.evaluate(async () => {
+      const transform = () => document.querySelector('.svelte-flow__viewport').style.transform;
+      for (let was = ''; was !== transform();) {
+        was = transform();
+        for (let i = 0; i < 6; i++) await new Promise(requestAnimationFrame);
+      }
+      return Number(/scale\(([\d.]+)\)/.exec(transform())[1]);
+    });
   const smaller = async (zoom) => {
     for (let was = await resting(); was > zoom; was = await resting()) {
       await diagram.getByRole('button', { name: 'Zoom Out' }).click();

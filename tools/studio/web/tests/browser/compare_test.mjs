@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { eventually, picture, until } from './support.mjs';
 
-export default async function ({ start, open, step }) {
+export default async function({ start, open, step }) {
   const page = await open(await start().address);
   await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
   const seek = page.getByLabel('Moment of the run');
@@ -52,12 +52,13 @@ export default async function ({ start, open, step }) {
   await key.waitFor();
   const [now, before] = (await key.innerText()).split('/').map(Number);
   assert.ok(Number.isFinite(now) && Number.isFinite(before) && now !== before, `${now} / ${before}`);
-  const robots = () => page.locator('[role="group"][aria-label="Arena"] canvas').first().evaluate((c) => {
-    const { data } = c.getContext('2d').getImageData(0, 0, c.width, c.height);
-    let blue = 0;
-    for (let i = 0; i < data.length; i += 4) if (data[i + 2] > 180 && data[i + 2] > data[i] + 60 && data[i + 1] > 100) blue++;
-    return blue;
-  });
+  const robots = () =>
+    page.locator('[role="group"][aria-label="Arena"] canvas').first().evaluate((c) => {
+      const { data } = c.getContext('2d').getImageData(0, 0, c.width, c.height);
+      let blue = 0;
+      for (let i = 0; i < data.length; i += 4) if (data[i + 2] > 180 && data[i + 2] > data[i] + 60 && data[i + 1] > 100) blue++;
+      return blue;
+    });
   step('space and raster plots have a picture of each run, or one of their difference');
   /** What is saved of a space plot has both runs. */
   const savedWithBoth = async (plot) => {

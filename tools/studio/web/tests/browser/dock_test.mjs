@@ -4,34 +4,52 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { answered, find, picture, sent, until } from './support.mjs';
 
-export default async function ({ folder, start, open, faults, step }) {
+export default async function({ folder, start, open, faults, step }) {
   const page = await open(await start().address, { width: 1600, height: 1000 });
   await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
-  const press = async (...keys) => { for (const k of keys) await page.keyboard.press(k); };
+  const press = async (...keys) => {
+    for (const k of keys) await page.keyboard.press(k);
+  };
 
   /** The stacks that are seen: their tabs, in order, and their places. */
-  const stacks = () => laidOut().then(() => page.evaluate(() => [...document.querySelectorAll('.dv-groupview')].filter((g) => g.getClientRects().length && g.offsetWidth && g.offsetHeight).map((g) => {
-    const { x, y, width, height } = g.getBoundingClientRect();
-    return { tabs: [...g.querySelectorAll('.dv-tab')].map((t) => t.textContent.trim()).join(', '), x: Math.round(x), y: Math.round(y), right: Math.round(x + width), bottom: Math.round(y + height), width: Math.round(width), height: Math.round(height), floats: !!g.closest('.dv-resize-container') };
-  })));
+  const stacks = () =>
+    laidOut().then(() =>
+      page.evaluate(() =>
+        [...document.querySelectorAll('.dv-groupview')].filter((g) => g.getClientRects().length && g.offsetWidth && g.offsetHeight).map((g) => {
+          const { x, y, width, height } = g.getBoundingClientRect();
+          return {
+            tabs: [...g.querySelectorAll('.dv-tab')].map((t) => t.textContent.trim()).join(', '),
+            x: Math.round(x),
+            y: Math.round(y),
+            right: Math.round(x + width),
+            bottom: Math.round(y + height),
+            width: Math.round(width),
+            height: Math.round(height),
+            floats: !!g.closest('.dv-resize-container'),
+          };
+        })
+      )
+    );
   // What is in a floating window is laid out with one of the next pictures.
-  const laidOut = () => until(page, 'the floating windows are laid out', async () => {
-    for (let i = 0; i < 2; i++) await new Promise(requestAnimationFrame);
-    return [...document.querySelectorAll('.dv-resize-container')].every((w) => {
-      const window = w.getBoundingClientRect(), inside = [...w.querySelectorAll('.dv-groupview')].map((g) => g.getBoundingClientRect());
-      return ['right', 'bottom'].every((side) => Math.abs(Math.max(...inside.map((r) => r[side])) - window[side]) < 3);
+  const laidOut = () =>
+    until(page, 'the floating windows are laid out', async () => {
+      for (let i = 0; i < 2; i++) await new Promise(requestAnimationFrame);
+      return [...document.querySelectorAll('.dv-resize-container')].every((w) => {
+        const window = w.getBoundingClientRect(), inside = [...w.querySelectorAll('.dv-groupview')].map((g) => g.getBoundingClientRect());
+        return ['right', 'bottom'].every((side) => Math.abs(Math.max(...inside.map((r) => r[side])) - window[side]) < 3);
+      });
     });
-  });
   const stack = async (tab) => {
     const found = (await stacks()).find((s) => s.tabs.split(', ').includes(tab));
     assert.ok(found, `a stack with ${tab}: ${JSON.stringify(await stacks())}`);
     return found;
   };
   /** The focus is on this tab, and is seen. */
-  const focused = (tab) => until(page, `the focus on the tab ${tab}`, (t) => {
-    const e = document.activeElement;
-    return e.matches('.dv-tab:focus-visible') && e.textContent.trim() === t && getComputedStyle(e, '::after').outlineStyle === 'solid';
-  }, tab);
+  const focused = (tab) =>
+    until(page, `the focus on the tab ${tab}`, (t) => {
+      const e = document.activeElement;
+      return e.matches('.dv-tab:focus-visible') && e.textContent.trim() === t && getComputedStyle(e, '::after').outlineStyle === 'solid';
+    }, tab);
   const settled = (what, condition) => until(page, what, condition);
   /** Goes to a panel from part to part. */
   const go = async (tab) => {

@@ -4,7 +4,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { accessible, answeredTo, find, sent, until } from './support.mjs';
 
-export default async function ({ folder, context, start, open, faults, step }) {
+export default async function({ folder, context, start, open, faults, step }) {
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);
   const file = join(folder, 'systems/reactive_foraging.iqr');
   const original = readFileSync(file, 'utf8');
@@ -20,11 +20,12 @@ export default async function ({ folder, context, start, open, faults, step }) {
   const dirty = (yes) => until(page, yes ? 'a change' : 'no change', (y) => document.title.startsWith('●') === y, yes);
   const count = (n) => until(page, `${n} boxes`, (k) => document.querySelectorAll('.svelte-flow__node:not(:has(.phantom))').length === k, n);
   /** A point of a line, as a part of its length. */
-  const along = (connection, part) => page.evaluate(([c, p]) => {
-    const path = document.querySelector(`g[data-connection="${c}"] .wide`);
-    const at = path.getPointAtLength(path.getTotalLength() * p).matrixTransform(path.getScreenCTM());
-    return [at.x, at.y];
-  }, [connection, part]);
+  const along = (connection, part) =>
+    page.evaluate(([c, p]) => {
+      const path = document.querySelector(`g[data-connection="${c}"] .wide`);
+      const at = path.getPointAtLength(path.getTotalLength() * p).matrixTransform(path.getScreenCTM());
+      return [at.x, at.y];
+    }, [connection, part]);
   const drag = async (from, to) => {
     await page.mouse.move(...from);
     await page.mouse.down();

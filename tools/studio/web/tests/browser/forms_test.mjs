@@ -4,7 +4,7 @@ import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { find, until } from './support.mjs';
 
-export default async function ({ folder, context, start, open, faults, step }) {
+export default async function({ folder, context, start, open, faults, step }) {
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);
   const begin = async (args) => {
     const page = await open(await start(args).address);
@@ -47,10 +47,11 @@ export default async function ({ folder, context, start, open, faults, step }) {
   step('what was chosen elsewhere is brought into view');
   await row('bug.motor').click();
   await pageIs('Bug');
-  const inView = (yes) => until(page, yes ? 'it is seen' : 'it is not seen', (y) => {
-    const seen = document.querySelector('.flow').getBoundingClientRect(), box = document.querySelector('.svelte-flow__node[data-id="bug.light"]').getBoundingClientRect();
-    return y === (box.left < seen.right && box.right > seen.left && box.top < seen.bottom && box.bottom > seen.top);
-  }, yes);
+  const inView = (yes) =>
+    until(page, yes ? 'it is seen' : 'it is not seen', (y) => {
+      const seen = document.querySelector('.flow').getBoundingClientRect(), box = document.querySelector('.svelte-flow__node[data-id="bug.light"]').getBoundingClientRect();
+      return y === (box.left < seen.right && box.right > seen.left && box.top < seen.bottom && box.bottom > seen.top);
+    }, yes);
   const middle = await canvas.boundingBox();
   await page.mouse.move(middle.x + middle.width / 2, middle.y + 40);
   await page.mouse.down({ button: 'middle' });

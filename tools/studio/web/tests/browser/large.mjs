@@ -13,13 +13,18 @@ function write(file, groups, connections, processes = 1) {
     out += `<Process id="p${p}" name="Process ${p}"><DiagramIcon x="${(p % 20) * 90}" y="${Math.floor(p / 20) * 90}" width="50" height="50"/>\n`;
     for (let i = 0; i < groups / processes; i++) {
       ids.push(`g${p}_${i}`);
-      out += `<Group id="g${p}_${i}" name="Group ${i}"><Topology><TopologyRect hcount="3" vcount="3" cylinderHor="false" cylinderVert="false"/></Topology><Neuron name="neuronLinearThreshold"/><DiagramIcon x="${(i % 25) * 90}" y="${Math.floor(i / 25) * 90}" width="50" height="50"/></Group>\n`;
+      out += `<Group id="g${p}_${i}" name="Group ${i}"><Topology><TopologyRect hcount="3" vcount="3" cylinderHor="false" cylinderVert="false"/></Topology><Neuron name="neuronLinearThreshold"/><DiagramIcon x="${(i % 25) * 90}" y="${
+        Math.floor(i / 25) * 90
+      }" width="50" height="50"/></Group>\n`;
     }
     out += '</Process>\n';
   }
   let seed = 7;
   const next = () => ids[(seed = (seed * 1103515245 + 12345) % 2147483648) % ids.length];
-  for (let i = 0; i < connections; i++) out += `<Connection id="c${i}" name="C ${i}" type="${['excitatory', 'inhibitory', 'modulatory'][i % 3]}" source="${next()}" target="${next()}"><Synapse name="synapseFixedWeight"/><DiagramLine APSource="4" APTarget="12"/></Connection>\n`;
+  for (let i = 0; i < connections; i++)
+    out += `<Connection id="c${i}" name="C ${i}" type="${
+      ['excitatory', 'inhibitory', 'modulatory'][i % 3]
+    }" source="${next()}" target="${next()}"><Synapse name="synapseFixedWeight"/><DiagramLine APSource="4" APTarget="12"/></Connection>\n`;
   writeFileSync(file, `${out}</System>\n`);
 }
 
@@ -40,17 +45,19 @@ await inBrowser(browser, forage, sources, async ({ folder, context, start }) => 
     await page.keyboard.press('Enter');
     await page.waitForTimeout(1500);
     const box = await page.locator('.svelte-flow__node').first().boundingBox();
-    const frames = page.evaluate(() => new Promise((done) => {
-      const times = [];
-      let last = performance.now();
-      const frame = (t) => {
-        times.push(t - last);
-        last = t;
-        if (times.length < 90) requestAnimationFrame(frame);
-        else done(times.sort((a, b) => a - b));
-      };
-      requestAnimationFrame(frame);
-    }));
+    const frames = page.evaluate(() =>
+      new Promise((done) => {
+        const times = [];
+        let last = performance.now();
+        const frame = (t) => {
+          times.push(t - last);
+          last = t;
+          if (times.length < 90) requestAnimationFrame(frame);
+          else done(times.sort((a, b) => a - b));
+        };
+        requestAnimationFrame(frame);
+      })
+    );
     const [x, y] = [box.x + box.width / 2, box.y + box.height / 2];
     await page.mouse.move(x, y);
     await page.mouse.down();

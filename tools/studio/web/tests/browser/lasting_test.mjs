@@ -6,7 +6,7 @@ import { eventually, find, picture, until } from './support.mjs';
 
 const cycle = (page) => page.getByLabel('Moment of the run').inputValue().then(Number);
 
-export default async function ({ folder, start, open, step }) {
+export default async function({ folder, start, open, step }) {
   step('a studio that is killed: the next one offers to continue, with the panels and the comparison as they were');
   const first = start();
   const page = await open(await first.address);
@@ -19,7 +19,10 @@ export default async function ({ folder, start, open, step }) {
   await page.getByRole('button', { name: 'End comparison' }).waitFor();
   await page.locator('[aria-label^="Space plot of"] canvas.reference').first().waitFor();
   // The panels are kept one second after the last change.
-  const kept = () => readdirSync(join(folder, 'state'), { recursive: true, withFileTypes: true }).filter((f) => f.isFile() && !f.name.endsWith('.part')).some((f) => ['"compare":{"changed":{},"from":7}', '"Adaptive/CS"'].every((part) => readFileSync(join(f.parentPath, f.name)).includes(part)));
+  const kept = () =>
+    readdirSync(join(folder, 'state'), { recursive: true, withFileTypes: true }).filter((f) => f.isFile() && !f.name.endsWith('.part')).some((f) =>
+      ['"compare":{"changed":{},"from":7}', '"Adaptive/CS"'].every((part) => readFileSync(join(f.parentPath, f.name)).includes(part))
+    );
   await eventually('the session is kept', kept);
   first.child.removeAllListeners('exit');
   first.child.kill('SIGKILL');

@@ -4,18 +4,21 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { until } from './support.mjs';
 
-export default async function ({ folder, start, open, step }) {
+export default async function({ folder, start, open, step }) {
   const text = readFileSync(join(folder, 'systems/dac_foraging.iqr'), 'utf8');
   const id = (name) => (new RegExp(`<Group [^>]*name="${name}"[^>]*`).exec(text)?.[0] ?? '').match(/ id="([^"]+)"/)[1];
   const shown = (item, states) => `<StateVariableDisplay><StateVariableDisplays ID="1" itemID="${item}" indices=""><Average>true</Average><SelectedStates>${states}</SelectedStates></StateVariableDisplays></StateVariableDisplay>`;
   const conf = join(folder, 'plots.conf');
-  writeFileSync(conf, `<iqrDataManagerConfiguration>
+  writeFileSync(
+    conf,
+    `<iqrDataManagerConfiguration>
 <DataClient type="PlotTypeGroup" ID="a">${shown(id('Sensor'), 'act;')}</DataClient>
 <DataClient type="PlotTypeTime" ID="b">${shown(id('GPS'), 'act;')}</DataClient>
 <DataClient type="DataSampler" ID="c"><AutoStart>true</AutoStart><TARGET_MODE>6</TARGET_MODE><SamplingRate>2</SamplingRate><FileName>gps.dat</FileName>${shown(id('GPS'), 'act;')}</DataClient>
 <DataClient type="PlotTypeGroup" ID="d">${shown('gone', 'act;')}</DataClient>
 </iqrDataManagerConfiguration>
-`);
+`,
+  );
   const page = await open(await start().address);
   await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
 
@@ -23,7 +26,7 @@ export default async function ({ folder, start, open, step }) {
   await page.getByRole('button', { name: 'Layouts of the panels' }).click();
   await page.locator('input[type="file"]').setInputFiles(conf);
   await page.getByRole('group', { name: 'Space plot of Bug/Sensor' }).waitFor();
-  await page.getByText("plots.conf:5").waitFor();
+  await page.getByText('plots.conf:5').waitFor();
   assert.equal(await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).count(), 0);
   await page.getByRole('button', { name: 'Close the message' }).click();
   const file = page.locator('.form label').filter({ hasText: /^File/ }).locator('input');

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { accessible, find, frames, picture, until } from './support.mjs';
 
-export default async function ({ start, open, faults, step }) {
+export default async function({ start, open, faults, step }) {
   const studio = start();
   const page = await open(await studio.address);
   const seek = page.getByLabel('Moment of the run');
@@ -48,7 +48,7 @@ export default async function ({ start, open, faults, step }) {
   const loaded = await threshold.inputValue();
   await threshold.fill('0.77');
   await threshold.press('Enter');
-  await page.getByText("run.params[\"Adaptive/Threshold CR.threshold\"] = 0.77").first().waitFor();
+  await page.getByText('run.params["Adaptive/Threshold CR.threshold"] = 0.77').first().waitFor();
   await inspector.getByRole('button', { name: /^Reset/ }).waitFor();
   await page.getByRole('button', { name: 'Undo' }).click();
   await until(page, 'undo', ([id, value]) => document.getElementById(id)?.value === value, ['Adaptive/Threshold CR.threshold', loaded]);
@@ -81,10 +81,11 @@ export default async function ({ start, open, faults, step }) {
   await page.locator('.uplot canvas').first().waitFor();
 
   step('a hidden page costs the engine nothing: it is sent no frames');
-  const hidden = async (yes) => page.evaluate((y) => {
-    window.kept ??= window.requestAnimationFrame;
-    window.requestAnimationFrame = y ? () => 0 : window.kept;
-  }, yes);
+  const hidden = async (yes) =>
+    page.evaluate((y) => {
+      window.kept ??= window.requestAnimationFrame;
+      window.requestAnimationFrame = y ? () => 0 : window.kept;
+    }, yes);
   const moment = () => seek.inputValue().then(Number);
   // Not by frames of the page, of which there are none while it is hidden.
   const goesOn = async (cycles) => page.waitForFunction((c) => Number(document.querySelector('[aria-label="Moment of the run"]').value) > c, (await moment()) + cycles, { polling: 50 });

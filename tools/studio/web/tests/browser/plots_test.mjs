@@ -4,7 +4,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { find, picture, sent, until } from './support.mjs';
 
-export default async function ({ folder, start, open, faults, step }) {
+export default async function({ folder, start, open, faults, step }) {
   const page = await open(await start().address);
   const inspector = page.getByRole('region', { name: 'Inspector' });
   const tree = page.getByRole('navigation');
@@ -284,11 +284,17 @@ export default async function ({ folder, start, open, faults, step }) {
   await until(page, 'the panels of Bug/Motor', () => [...document.querySelectorAll('.dv-tab')].filter((t) => /^Bug\/Motor( raster)?$/.test(t.textContent.trim())).length === 2);
 
   step('sparse groups have their lattice in space plots and wiring, whose cells are chosen by keyboard');
-  const kinds = [['learns', '<Synapse name="synapseHebbian"><Parameter name="lrate" value="0.1"/><XRefHolder name="Freedback"><XRef name="postact" target="act"/></XRefHolder></Synapse>'], ['constant', '<Synapse name="synapseFixedWeight"><Parameter name="weight" value="0.5"/></Synapse>']];
-  writeFileSync(join(folder, 'small.iqr'), `<System id="s" name="S"><Process id="p" name="P">
+  const kinds = [['learns', '<Synapse name="synapseHebbian"><Parameter name="lrate" value="0.1"/><XRefHolder name="Freedback"><XRef name="postact" target="act"/></XRefHolder></Synapse>'], [
+    'constant',
+    '<Synapse name="synapseFixedWeight"><Parameter name="weight" value="0.5"/></Synapse>',
+  ]];
+  writeFileSync(
+    join(folder, 'small.iqr'),
+    `<System id="s" name="S"><Process id="p" name="P">
     <Group id="a" name="A"><Topology><TopologySparse><Point x="2" y="3"/><Point x="3" y="1"/><Point x="1" y="1"/></TopologySparse></Topology><Neuron name="neuronRandomSpike"/></Group>
     <Group id="b" name="B"><Topology><TopologyRect hcount="3" vcount="2" cylinderHor="false" cylinderVert="false"/></Topology><Neuron name="neuronLinearThreshold"/></Group>
-  </Process>${kinds.map(([name, synapse]) => `<Connection id="${name}" name="${name}" source="a" target="b" type="excitatory"><Pattern><PatternForeach/></Pattern>${synapse}</Connection>`).join('')}</System>`);
+  </Process>${kinds.map(([name, synapse]) => `<Connection id="${name}" name="${name}" source="a" target="b" type="excitatory"><Pattern><PatternForeach/></Pattern>${synapse}</Connection>`).join('')}</System>`,
+  );
   await page.goto(await start(['small.iqr']).address);
   await tree.getByText('A', { exact: true }).click();
   await inspector.getByRole('button', { name: 'Space' }).click();

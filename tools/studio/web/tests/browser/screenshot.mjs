@@ -8,7 +8,10 @@ const [width = 1400, height = 900, colorScheme = 'light', shown] = process.argv.
 const tutorial = shown === 'tutorial';
 const studio = spawn(forage, ['studio', shown === 'build' ? 'systems/reactive_foraging.iqr' : 'systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world'], { cwd: sources });
 const address = await new Promise((found) => studio.stdout.on('data', (text) => found(/http:\/\/\S+/.exec(text)[0])));
-const browser = await chromium.launch({ executablePath: '/usr/bin/chromium', args: ['--no-sandbox', ...(tutorial ? ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] : ['--disable-gpu']), '--disable-background-networking'] });
+const browser = await chromium.launch({
+  executablePath: '/usr/bin/chromium',
+  args: ['--no-sandbox', ...(tutorial ? ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] : ['--disable-gpu']), '--disable-background-networking'],
+});
 try {
   const page = await browser.newPage({ viewport: { width: Number(width), height: Number(height) }, colorScheme });
   await page.goto(address);

@@ -58,21 +58,28 @@ export async function find(page, text) {
 /** axe finds no serious fault of accessibility. Dockview's own tabs hold a close button, which axe calls nested. */
 export async function accessible(page, what) {
   if (!(await page.evaluate(() => 'axe' in window))) await page.evaluate(axe);
-  const serious = await page.evaluate(async () => (await window.axe.run({ exclude: ['.dv-tab'] }, { resultTypes: ['violations'] })).violations.filter((v) => ['serious', 'critical'].includes(v.impact)).map((v) => `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 200)).join(' | ')}`));
+  const serious = await page.evaluate(async () =>
+    (await window.axe.run({ exclude: ['.dv-tab'] }, { resultTypes: ['violations'] })).violations.filter((v) => ['serious', 'critical'].includes(v.impact)).map((v) =>
+      `${v.id}: ${v.nodes.slice(0, 3).map((n) => n.html.slice(0, 200)).join(' | ')}`
+    )
+  );
   assert.deepEqual(serious, [], what);
 }
 
 /** Waits until the page has what the server says of all that it was sent: what came of it is not still under way. */
-export const answered = (page) => page.evaluate(() => new Promise((done) => {
-  const id = 1e9 + Math.random();
-  const listen = ({ data }) => {
-    if (typeof data !== 'string' || JSON.parse(data).id !== id) return;
-    window.socket.removeEventListener('message', listen);
-    setTimeout(done); // the page has drawn it
-  };
-  window.socket.addEventListener('message', listen);
-  window.socket.send(JSON.stringify({ id, command: 'settings' }));
-}));
+export const answered = (page) =>
+  page.evaluate(() =>
+    new Promise((done) => {
+      const id = 1e9 + Math.random();
+      const listen = ({ data }) => {
+        if (typeof data !== 'string' || JSON.parse(data).id !== id) return;
+        window.socket.removeEventListener('message', listen);
+        setTimeout(done); // the page has drawn it
+      };
+      window.socket.addEventListener('message', listen);
+      window.socket.send(JSON.stringify({ id, command: 'settings' }));
+    })
+  );
 /** How often the page has sent a command. */
 export const sent = (page, command) => page.evaluate((c) => window.sent.filter((s) => s === c).length, command);
 /** Waits until the page has sent a command more often than `before`, and it was answered. */
@@ -104,9 +111,9 @@ function lookOften(locator) {
   const prototype = Object.getPrototypeOf(locator), { waitFor } = prototype;
   if (prototype.looksOften) return;
   prototype.looksOften = true;
-  prototype.waitFor = async function (options) {
+  prototype.waitFor = async function(options) {
     const end = performance.now() + patience;
-    for (let timeout = 400; ; timeout *= 2)
+    for (let timeout = 400;; timeout *= 2)
       try {
         return await waitFor.call(this, { timeout, ...options });
       } catch (error) {
@@ -116,7 +123,7 @@ function lookOften(locator) {
   // What acts on an element waits for it in the same way.
   for (const act of ['click', 'dblclick', 'fill', 'press', 'selectOption', 'focus', 'innerText', 'textContent', 'inputValue']) {
     const { [act]: then } = prototype;
-    prototype[act] = async function (...given) {
+    prototype[act] = async function(...given) {
       await this.first().waitFor({ state: 'attached' });
       return then.apply(this, given);
     };

@@ -4,12 +4,14 @@ import { existsSync, readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { find, picture, until } from './support.mjs';
 
-export default async function ({ folder, start, open, faults, step }) {
+export default async function({ folder, start, open, faults, step }) {
   const studio = start(['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
   const page = await open(await studio.address);
   page.on('dialog', (d) => d.accept());
   const tree = page.getByRole('navigation'), inspector = page.getByRole('region', { name: 'Inspector' }), dialog = page.locator('dialog[open]');
-  const press = async (...keys) => { for (const k of keys) await page.keyboard.press(k); };
+  const press = async (...keys) => {
+    for (const k of keys) await page.keyboard.press(k);
+  };
 
   step('a group is driven by keys alone, by a list of patterns in another order');
   await tree.getByText('Motor', { exact: true }).click();
@@ -115,7 +117,10 @@ export default async function ({ folder, start, open, faults, step }) {
   await picture(page, 'world');
 
   step('quit ends the program');
-  const ended = new Promise((done) => { studio.child.removeAllListeners('exit'); studio.child.on('exit', done); });
+  const ended = new Promise((done) => {
+    studio.child.removeAllListeners('exit');
+    studio.child.on('exit', done);
+  });
   await page.locator('button.name').click();
   await page.getByRole('menuitem', { name: 'Quit…' }).click();
   assert.equal(await ended, 0);

@@ -4,7 +4,7 @@ import { existsSync } from 'node:fs';
 import { join } from 'node:path';
 import { accessible, until } from './support.mjs';
 
-export default async function ({ folder, start, open, faults, step }) {
+export default async function({ folder, start, open, faults, step }) {
   const page = await open(await start().address);
   await page.getByRole('group', { name: 'Arena' }).waitFor();
 

@@ -5,13 +5,16 @@ import { answered, eventually, find, sent, until } from './support.mjs';
 
 const large = { width: 1600, height: 1000 }, small = { width: 420, height: 800 };
 
-export default async function ({ start, open, faults, step }) {
+export default async function({ start, open, faults, step }) {
   const address = await start().address;
   /** The places of the stacks of panels, with the tabs of each. */
-  const stacks = (page) => page.evaluate(() => [...document.querySelectorAll('.dv-groupview')].filter((g) => g.offsetParent).map((g) => {
-    const { x, y, width, height } = g.getBoundingClientRect();
-    return [[...g.querySelectorAll('.dv-tab')].map((t) => t.textContent.trim()).sort().join(', '), ...[x, y, width, height].map(Math.round)].join(' | ');
-  }).sort());
+  const stacks = (page) =>
+    page.evaluate(() =>
+      [...document.querySelectorAll('.dv-groupview')].filter((g) => g.offsetParent).map((g) => {
+        const { x, y, width, height } = g.getBoundingClientRect();
+        return [[...g.querySelectorAll('.dv-tab')].map((t) => t.textContent.trim()).sort().join(', '), ...[x, y, width, height].map(Math.round)].join(' | ');
+      }).sort()
+    );
   const count = (page, n) => until(page, `${n} stacks of panels`, (k) => [...document.querySelectorAll('.dv-groupview')].filter((g) => g.offsetParent).length === k, n);
   const tree = (page) => page.getByRole('navigation');
   const inspector = (page) => page.getByRole('region', { name: 'Inspector' });
@@ -147,17 +150,19 @@ export default async function ({ start, open, faults, step }) {
   await find(page, 'Light to US');
   await inspector(page).getByLabel('Arborization', { exact: true }).selectOption('ArbRect');
   await inspector(page).getByLabel('initialization_probability').waitFor();
-  const broken = await inspector(page).evaluate((form) => [...form.querySelectorAll('label, h2, h3')].flatMap((label) => {
-    const texts = document.createTreeWalker(label, NodeFilter.SHOW_TEXT), found = [];
-    for (let node = texts.nextNode(); node; node = texts.nextNode())
-      for (const word of node.data.matchAll(/\S+/g)) {
-        const range = document.createRange();
-        range.setStart(node, word.index);
-        range.setEnd(node, word.index + word[0].length);
-        if (new Set([...range.getClientRects()].map((r) => Math.round(r.top))).size > 1) found.push(label.textContent);
-      }
-    return found;
-  }));
+  const broken = await inspector(page).evaluate((form) =>
+    [...form.querySelectorAll('label, h2, h3')].flatMap((label) => {
+      const texts = document.createTreeWalker(label, NodeFilter.SHOW_TEXT), found = [];
+      for (let node = texts.nextNode(); node; node = texts.nextNode())
+        for (const word of node.data.matchAll(/\S+/g)) {
+          const range = document.createRange();
+          range.setStart(node, word.index);
+          range.setEnd(node, word.index + word[0].length);
+          if (new Set([...range.getClientRects()].map((r) => Math.round(r.top))).size > 1) found.push(label.textContent);
+        }
+      return found;
+    })
+  );
   assert.deepEqual(broken, []);
   step('the layouts of the parts leave room for plots and for the names in the diagram');
   for (const size of [large, { width: 1366, height: 768 }]) {

@@ -5,7 +5,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { accessible, until } from './support.mjs';
 
-export default async function ({ forage, folder, start, open, faults, step }) {
+export default async function({ forage, folder, start, open, faults, step }) {
   const file = 'systems/worlds/basic_arena.world';
   const original = readFileSync(join(folder, file), 'utf8');
   const page = await open(await start(['systems/reactive_foraging.iqr', '--world', file]).address);
@@ -53,7 +53,10 @@ export default async function ({ forage, folder, start, open, faults, step }) {
 
   step('the buttons and the map are one stop of the Tab key each; keys lead from button to button, and from item to item');
   await world.getByRole('button', { name: 'wall', exact: true }).focus();
-  const active = () => page.evaluate(() => [document.activeElement.closest('[role=toolbar]') ? 'button' : document.activeElement.closest('[aria-label="Map of the world"]') ? 'map' : 'other', document.activeElement.ariaLabel ?? document.activeElement.textContent]);
+  const active = () =>
+    page.evaluate(
+      () => [document.activeElement.closest('[role=toolbar]') ? 'button' : document.activeElement.closest('[aria-label="Map of the world"]') ? 'map' : 'other', document.activeElement.ariaLabel ?? document.activeElement.textContent],
+    );
   await page.keyboard.press('End');
   const [, end] = await active();
   await page.keyboard.press('ArrowLeft');
@@ -99,7 +102,8 @@ export default async function ({ forage, folder, start, open, faults, step }) {
   await count(all - (kinds.length - 3) - 1);
 
   step('colours, lengths and rules are edited in the form, and undone');
-  const value = (label, wanted) => until(page, `${label} is ${wanted}`, ([l, w]) => [...document.querySelectorAll('[aria-label^="Properties of"] .field')].some((f) => f.querySelector('label').textContent === l && f.querySelector('input').value === w), [label, wanted]);
+  const value = (label, wanted) =>
+    until(page, `${label} is ${wanted}`, ([l, w]) => [...document.querySelectorAll('[aria-label^="Properties of"] .field')].some((f) => f.querySelector('label').textContent === l && f.querySelector('input').value === w), [label, wanted]);
   await list.selectOption('Bug');
   await field('Colour').fill('#00ff80');
   await value('Colour', '#00ff80');

@@ -4,7 +4,7 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { accessible, answeredTo, find, picture, sent, until } from './support.mjs';
 
-export default async function ({ folder, context, start, open, faults, step }) {
+export default async function({ folder, context, start, open, faults, step }) {
   const file = join(folder, 'systems/reactive_foraging.iqr');
   const sound = readFileSync(file, 'utf8');
   // Lines of a file from Windows, some of them: they stay.
@@ -29,10 +29,11 @@ export default async function ({ folder, context, start, open, faults, step }) {
     await list.getByRole('option', { name, selected: true }).waitFor({ state: 'detached' });
   };
   const problems = page.getByRole('group', { name: 'Problems' });
-  const line = () => page.evaluate(() => {
-    const node = getSelection().anchorNode;
-    return (node instanceof Element ? node : node?.parentElement)?.closest('.cm-line')?.textContent ?? '';
-  });
+  const line = () =>
+    page.evaluate(() => {
+      const node = getSelection().anchorNode;
+      return (node instanceof Element ? node : node?.parentElement)?.closest('.cm-line')?.textContent ?? '';
+    });
 
   step('a file that is not XML opens with its text, its mistake and the list of them');
   await text.waitFor();
@@ -162,14 +163,16 @@ export default async function ({ folder, context, start, open, faults, step }) {
   await page.keyboard.press('Escape');
 
   step('what is done with the run meanwhile is no conflict with what is written');
-  const done = await page.evaluate(() => new Promise((answer) => {
-    const socket = new WebSocket(`ws://${location.host}/ws`);
-    socket.onopen = () => socket.send(JSON.stringify({ id: 1, command: 'manipulate', group: 'Bug/Motor', patterns: [Array(81).fill(0)] }));
-    socket.onmessage = ({ data }) => {
-      const message = typeof data === 'string' ? JSON.parse(data) : {};
-      if (message.type === 'reply') answer(message.ok), socket.close();
-    };
-  }));
+  const done = await page.evaluate(() =>
+    new Promise((answer) => {
+      const socket = new WebSocket(`ws://${location.host}/ws`);
+      socket.onopen = () => socket.send(JSON.stringify({ id: 1, command: 'manipulate', group: 'Bug/Motor', patterns: [Array(81).fill(0)] }));
+      socket.onmessage = ({ data }) => {
+        const message = typeof data === 'string' ? JSON.parse(data) : {};
+        if (message.type === 'reply') answer(message.ok), socket.close();
+      };
+    })
+  );
   assert.equal(done, true);
   await text.press('Control+End');
   await page.keyboard.type('<!-- meanwhile -->');

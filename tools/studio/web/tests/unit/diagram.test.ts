@@ -7,11 +7,30 @@ import { holds, parseTuples, spanned, tupleText } from '../../src/edit/forms/cel
 import { anchor, middleOfLongest, nearestPart, roundedPath, type Point } from '../../src/panels/line';
 import type { Connection, ConnectionLine, Group, SystemMessage } from '../../src/protocol/messages';
 
-const group = (id: string, x: number | null, y = 0): Group => ({ id, name: id, path: `P/${id}`, color: '', note: '', icon: x === null ? null : { x, y, width: 50, height: 50 }, type: '', width: 1, height: 1, cells: 1, places: null, states: [] });
+const group = (id: string, x: number | null, y = 0): Group => ({
+  id,
+  name: id,
+  path: `P/${id}`,
+  color: '',
+  note: '',
+  icon: x === null ? null : { x, y, width: 50, height: 50 },
+  type: '',
+  width: 1,
+  height: 1,
+  cells: 1,
+  places: null,
+  states: [],
+});
 const connection = (id: string, source: string, target: string, line: Connection['line'] = null): Connection => ({ id, name: id, source, target, kind: 'excitatory', type: '', note: '', synapses: 1, form: '', states: [], line });
 const line = (more: Partial<ConnectionLine>): ConnectionLine => ({ source_anchor: 1, target_anchor: 1, vertices: [], source_vertices: [], target_vertices: [], ...more });
 const system = (groups: Group[][], connections: Connection[]): SystemMessage => ({
-  type: 'system', name: 's', file: '', opened: 1, note: '', cycles_per_second: 25, seconds_per_cycle: 0.04,
+  type: 'system',
+  name: 's',
+  file: '',
+  opened: 1,
+  note: '',
+  cycles_per_second: 25,
+  seconds_per_cycle: 0.04,
   processes: groups.map((g, i) => ({ id: `p${i}`, name: `P${i}`, color: '', note: '', icon: { x: 100 * i, y: 0, width: 50, height: 50 }, linked: false, enabled: true, module: null, groups: g, comments: [], phantoms: [] })),
   connections,
   comments: [],
@@ -103,12 +122,19 @@ describe('lines that would lie on each other', () => {
     expect(lines).toEqual([[{ x: 120, y: 77.5 }, { x: 400, y: 77.5 }], [{ x: 400, y: 89.5 }, { x: 120, y: 89.5 }], [{ x: 120, y: 65.5 }, { x: 400, y: 65.5 }]]);
   });
   it('stay where they are when they have other points, or vertices', async () => {
-    const lines = await drawnOf([pair], [connection('c', 'a', 'b', line({ source_anchor: 5, target_anchor: 13 })), connection('d', 'a', 'b', line({ source_anchor: 5, target_anchor: 14 })), connection('e', 'a', 'b', line({ source_anchor: 5, target_anchor: 13, vertices: [[120, 90]] }))]);
+    const lines = await drawnOf([pair], [
+      connection('c', 'a', 'b', line({ source_anchor: 5, target_anchor: 13 })),
+      connection('d', 'a', 'b', line({ source_anchor: 5, target_anchor: 14 })),
+      connection('e', 'a', 'b', line({ source_anchor: 5, target_anchor: 13, vertices: [[120, 90]] })),
+    ]);
     expect(lines.map((l) => [l[0], l[l.length - 1]])).toEqual([[{ x: 120, y: 77.5 }, { x: 400, y: 77.5 }], [{ x: 120, y: 77.5 }, { x: 400, y: 102.5 }], [{ x: 120, y: 77.5 }, { x: 400, y: 77.5 }]]);
   });
   it('end at the edges of boxes that stand obliquely, and are all apart', async () => {
     for (const bent of [null, line({ source_anchor: 8, target_anchor: 0 }), line({ source_anchor: 6, target_anchor: 13 })]) {
-      const lines = await drawnOf([[group('a', 10, 20), group('b', 150, 160)]], ['c', 'd', 'e', 'f', 'g', 'h'].map((id, i) => (i % 2 ? connection(id, 'b', 'a', bent && line({ source_anchor: bent.target_anchor, target_anchor: bent.source_anchor })) : connection(id, 'a', 'b', bent))));
+      const lines = await drawnOf(
+        [[group('a', 10, 20), group('b', 150, 160)]],
+        ['c', 'd', 'e', 'f', 'g', 'h'].map((id, i) => (i % 2 ? connection(id, 'b', 'a', bent && line({ source_anchor: bent.target_anchor, target_anchor: bent.source_anchor })) : connection(id, 'a', 'b', bent))),
+      );
       expect(apart(lines)).toBeGreaterThan(8);
       lines.forEach((l, i) => {
         const [a, b] = i % 2 ? [l[l.length - 1]!, l[0]!] : [l[0]!, l[l.length - 1]!];

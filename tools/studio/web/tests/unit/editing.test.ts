@@ -33,7 +33,13 @@ beforeEach(() => {
   sent.length = 0;
   editing.message = { type: 'document', file: '/a.iqr', backup_of: null, shipped: false, name: 'A', dirty: false, readable: true, opened_with_mistakes: false, problems: [], outside: null, undo: null, redo: null };
   model.system = {
-    type: 'system', name: 's', file: '/a.iqr', opened: 1, note: '', cycles_per_second: 25, seconds_per_cycle: 0.04,
+    type: 'system',
+    name: 's',
+    file: '/a.iqr',
+    opened: 1,
+    note: '',
+    cycles_per_second: 25,
+    seconds_per_cycle: 0.04,
     processes: [{ id: 'p', name: 'P', color: '', note: '', icon: null, linked: false, enabled: true, module: null, groups: ['a', 'b', 'c'].map(group), comments: [], phantoms: [] }],
     connections: [line('ab', 'a', 'b'), line('bc', 'b', 'c')],
     comments: [],

@@ -4,7 +4,10 @@ import { renamedSource } from '../../src/panels/sources';
 import { followed, idsByName, nameChanges, shows } from '../../src/stores/follow';
 
 const system = (groups: Record<string, string>, connections: Record<string, string> = {}, process = 'Bug') =>
-  ({ processes: [{ id: 'p', name: process, groups: Object.entries(groups).map(([id, name]) => ({ id, path: `${process}/${name}` })) }], connections: Object.entries(connections).map(([id, name]) => ({ id, name })) }) as unknown as SystemMessage;
+  ({
+    processes: [{ id: 'p', name: process, groups: Object.entries(groups).map(([id, name]) => ({ id, path: `${process}/${name}` })) }],
+    connections: Object.entries(connections).map(([id, name]) => ({ id, name })),
+  }) as unknown as SystemMessage;
 
 describe('panels', () => {
   it('keep to an item with another name', () => {

@@ -3,7 +3,10 @@ import type { Frame } from '../../src/protocol/frame';
 import { Streams } from '../../src/streams';
 
 const frame = (sequence: number, stream: number, value: number): Frame => ({
-  sequence, epoch: 1, cycle: sequence, seconds: 0,
+  sequence,
+  epoch: 1,
+  cycle: sequence,
+  seconds: 0,
   blocks: [{ stream, rows: 1, columns: 1, gap: false, minMax: false, low: value, high: value, values: Float32Array.of(value) }],
 });
 
@@ -14,7 +17,12 @@ function server() {
     sent.push([command, details as Record<string, unknown>]);
     return Promise.resolve(command === 'subscribe' ? { stream: next++ } : {});
   };
-  return { sent, streams: new Streams(request as unknown as ConstructorParameters<typeof Streams>[0], (_, e) => { throw e; }) };
+  return {
+    sent,
+    streams: new Streams(request as unknown as ConstructorParameters<typeof Streams>[0], (_, e) => {
+      throw e;
+    }),
+  };
 }
 const settle = () => new Promise((r) => setTimeout(r));
 

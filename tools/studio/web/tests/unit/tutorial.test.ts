@@ -29,7 +29,19 @@ describe('pages of the tutorial', () => {
   });
   it('have a button for each comment that sets something up', () => {
     const made = page('<!-- studio\nsystem: a.iqr\nworld: b.world\nset: P.x=1\nspeed: max\nchoose: P.y = 0 0.5\nspace: P/G\nsay: Press *Run* <now>.\n-->\n\n<!-- made by: x -->\n');
-    expect(made.setups).toEqual([{ system: 'a.iqr', world: 'b.world', set: ['P.x=1'], clamp: [], speed: 0, seed: 1, window: 30, panels: [{ kind: 'space', item: 'P/G' }], diagram: 'P', choices: [{ assignment: 'P.y', values: ['0', '0.5'] }], say: 'Press *Run* <now>.' }]);
+    expect(made.setups).toEqual([{
+      system: 'a.iqr',
+      world: 'b.world',
+      set: ['P.x=1'],
+      clamp: [],
+      speed: 0,
+      seed: 1,
+      window: 30,
+      panels: [{ kind: 'space', item: 'P/G' }],
+      diagram: 'P',
+      choices: [{ assignment: 'P.y', values: ['0', '0.5'] }],
+      say: 'Press *Run* <now>.',
+    }]);
     expect(made.html).toContain('data-open="0">Set it up</button>');
     expect(made.html).toContain('data-set="P.y=0.5" aria-label="P.y = 0.5">0.5</button>');
     expect(made.html).toContain('Press <em>Run</em> &#60;now&#62;.');
@@ -58,8 +70,7 @@ describe('pages of the tutorial', () => {
     expect(setup.panels).toEqual([{ kind: 'space', item: 'P/Two words', scale: [-0.5, 0.2] }, { kind: 'time', item: 'P/G' }]);
     expect([setup.seed, setup.window]).toEqual([3, 600]);
   });
-  it('refuse a set-up that would be folded away', () =>
-    expect(() => page('<details><summary>S</summary>\n\n<!-- studio\nsystem: a\nworld: b\nspace: P/G\n-->\n\n</details>')).toThrow('outside'));
+  it('refuse a set-up that would be folded away', () => expect(() => page('<details><summary>S</summary>\n\n<!-- studio\nsystem: a\nworld: b\nspace: P/G\n-->\n\n</details>')).toThrow('outside'));
 });
 
 describe('docs/tutorial', () => {

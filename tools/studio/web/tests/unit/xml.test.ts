@@ -10,7 +10,12 @@ import { suggest, type Knowledge, type Suggestion } from '../../src/xml/suggest'
 const attribute = (name: string, more: Partial<AttributeRule> = {}): AttributeRule => ({ name, doc: `doc of ${name}`, required: false, kind: 'text', unit: '', default: '', names: null, ...more });
 const needed = (name: string, more: Partial<AttributeRule> = {}) => attribute(name, { required: true, ...more });
 const element = (name: string, children: string, attributes: AttributeRule[] = [], more: Partial<ElementRule> = {}): ElementRule => ({
-  name, doc: `doc of ${name}`, choose: 0, text: false, attributes, ...more,
+  name,
+  doc: `doc of ${name}`,
+  choose: 0,
+  text: false,
+  attributes,
+  ...more,
   children: children.split(' ').filter(Boolean).map((c) => ({ name: c.replace(/[?!]/, ''), several: !/[?!]/.test(c), required: c.endsWith('!') })),
 });
 const vocabulary = {
@@ -33,7 +38,13 @@ const vocabulary = {
   ],
 };
 const types = {
-  neurons: [{ type: 'neuronLinear', label: 'Linear', doc: 'A sum.', parameters: [{ name: 'gain', label: 'Gain', doc: 'Factor of the input.', unit: 'mV', kind: 'real', default: 1, low: 0, high: 10 }, { name: 'clip', kind: 'boolean', default: false }], states: [{ name: 'act', label: 'Activity' }] }],
+  neurons: [{
+    type: 'neuronLinear',
+    label: 'Linear',
+    doc: 'A sum.',
+    parameters: [{ name: 'gain', label: 'Gain', doc: 'Factor of the input.', unit: 'mV', kind: 'real', default: 1, low: 0, high: 10 }, { name: 'clip', kind: 'boolean', default: false }],
+    states: [{ name: 'act', label: 'Activity' }],
+  }],
   synapses: [{ type: 'synapseFixed', parameters: [], feedback: [{ name: 'error', label: 'Error', required: true }] }],
   modules: [{ type: 'moduleBug', parameters: [], inputs: [{ name: 'motor', label: 'Motor', optional: true }], outputs: [{ name: 'light', label: 'Light' }] }],
   arborizations: [],
@@ -76,7 +87,7 @@ describe('suggestions', () => {
   it('are types, with what they mean', () => {
     expect(at('<Group><Neuron name="|"/>')).toEqual([{ text: 'neuronLinear', detail: 'Linear', doc: 'A sum.' }]);
     expect(names('<Connection><Synapse name="syn|')).toEqual(['synapseFixed']);
-    expect(names('<Process><Module name=\'|')).toEqual(['moduleBug']);
+    expect(names("<Process><Module name='|")).toEqual(['moduleBug']);
   });
   it('are parameters with default, range, unit and meaning, and their values', () => {
     expect(at('<Neuron name="neuronLinear"><Parameter name="|"')[0]).toEqual({ text: 'gain', detail: '1 mV', words: 'Gain', doc: 'Gain: Factor of the input.\nreal; in mV; usually 0 to 10; default 1' });
