@@ -55,7 +55,8 @@ std::optional<std::vector<model::Point>> canvas_points(std::string_view list) {
         const auto x = parse_number<int>(word.substr(0, comma)),
                    y = parse_number<int>(word.substr(comma + 1));
         for (const auto& v : {x, y})
-            if (!v || std::abs(*v) > model::farthest_coordinate) return std::nullopt;
+            if (!v || *v < -model::farthest_coordinate || *v > model::farthest_coordinate)
+                return std::nullopt;
         out.push_back({*x, *y, {}});
     }
     return out;

@@ -12,7 +12,6 @@
 #include "core/model/lookup.h"
 #include "core/model/operations.h"
 #include "tools/api/describe/system_description.h"
-#include "tools/api/edit/forms.h"
 #include "tools/plot/world_map.h"
 
 namespace forage {
@@ -59,11 +58,16 @@ json module_of(const model::Process& p) {
 
 json line_of(const std::optional<model::Line>& line) {
     if (!line) return nullptr;
+    const auto places = [](const std::vector<model::Point>& all) {
+        json out = json::array();
+        for (const auto& v : all) out.push_back({v.x, v.y});
+        return out;
+    };
     return {{"source_anchor", line->source_anchor},
             {"target_anchor", line->target_anchor},
-            {"vertices", editing::points_of(line->vertices)},
-            {"source_vertices", editing::points_of(line->source_vertices)},
-            {"target_vertices", editing::points_of(line->target_vertices)}};
+            {"vertices", places(line->vertices)},
+            {"source_vertices", places(line->source_vertices)},
+            {"target_vertices", places(line->target_vertices)}};
 }
 
 json comments_of(const std::vector<model::CanvasComment>& comments) {

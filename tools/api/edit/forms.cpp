@@ -186,6 +186,8 @@ json json_of(const Topology& topology) {
 Topology topology_from(const json& form) {
     const auto points = form.find("points");
     if (points != form.end() && !points->empty()) return SparseTopology{points_from(*points)};
+    if (!form.contains("width") || !form.contains("height"))
+        throw InputError("a topology has 'width' and 'height', or 'points'");
     return RectTopology{whole_from(form.at("width"), model::max_extent),
                         whole_from(form.at("height"), model::max_extent), form.value("wrap_x", false),
                         form.value("wrap_y", false)};

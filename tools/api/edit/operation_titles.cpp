@@ -23,29 +23,36 @@ std::string what_is(const System& system, const std::string& id) {
     return "the system";
 }
 
+/// A text in an operation whose members may be wrong.
+std::string text_in(const json& o, const char* member, const std::string& otherwise = {}) {
+    const auto it = o.find(member);
+    return it != o.end() && it->is_string() ? it->get<std::string>() : otherwise;
+}
+
 }  // namespace
 
 std::string title_of(const json& o, const System& system) {
-    const auto what = o.value("do", "");
-    const auto name = what_is(system, o.value("id", ""));
-    if (what.starts_with("add_")) return fmt::format("add {}", o.value("name", what.substr(4)));
+    const auto what = text_in(o, "do");
+    const auto name = what_is(system, text_in(o, "id"));
+    if (what.starts_with("add_")) return fmt::format("add {}", text_in(o, "name", what.substr(4)));
     if (what == "remove") {
-        const auto ids = o.value("ids", std::vector<std::string>());
-        return ids.size() == 1 ? "remove " + what_is(system, ids.front())
-                               : fmt::format("remove {} items", ids.size());
+        const json ids = o.value("ids", json::array());
+        return ids.size() == 1 && ids.is_array() && ids[0].is_string()
+                   ? "remove " + what_is(system, ids[0].get<std::string>())
+                   : fmt::format("remove {} items", ids.size());
     }
     if (what == "parameter") {
         const json value = o.value("value", json());
-        return fmt::format("{}.{} = {}", name, o.value("name", ""),
+        return fmt::format("{}.{} = {}", name, text_in(o, "name"),
                            value.is_string() ? value.get<std::string>()
                            : value.is_null() ? "its default"
                                              : value.dump());
     }
     if (what == "place") return "move " + name;
-    if (what == "phantom") return "move the phantom of " + what_is(system, o.value("group", ""));
+    if (what == "phantom") return "move the phantom of " + what_is(system, text_in(o, "group"));
     if (what == "comment") return "change " + name;
-    if (what == "rename") return fmt::format("rename {} to {}", name, o.value("name", ""));
-    if (what == "set") return fmt::format("{} of {}", o.value("property", "property"), name);
+    if (what == "rename") return fmt::format("rename {} to {}", name, text_in(o, "name"));
+    if (what == "set") return fmt::format("{} of {}", text_in(o, "property"), name);
     if (what == "paste") return "paste";
     if (what == "system") return "properties of the system";
     return fmt::format("{} of {}", what, name);

@@ -49,15 +49,21 @@ struct SystemEdit {
         return static_cast<InputKind>(it - std::begin(kinds));
     }
 
+    void place_new(const std::string& made) {
+        const auto *x = member("x"), *y = member("y");
+        if ((x == nullptr) != (y == nullptr))
+            throw InputError("'x' and 'y' belong together", "give both, or none");
+        if (x) model::place(system, made, whole_from(*x), whole_from(*y));
+    }
     json add_process() {
         const auto made = model::add_process(system, text("name"), text("id"));
-        if (member("x")) model::place(system, made, whole_from(o["x"]), whole_from(o["y"]));
+        place_new(made);
         return made;
     }
     json add_group() {
         const auto made = model::add_group(system, text("process"), text("name"), o.at("width"),
                                            o.at("height"), text("neuron"), text("id"));
-        if (member("x")) model::place(system, made, whole_from(o["x"]), whole_from(o["y"]));
+        place_new(made);
         return made;
     }
     LineChange line_change() const {
@@ -203,7 +209,7 @@ const std::vector<Operation<SystemEdit>>& system_operations() {
         };
         const ValueType points = list(list(number()));
         const ValueType kind = choice({std::begin(kinds), std::end(kinds)});
-        const Member id{"id", text(), "an id, or `system`"};
+        const Member id{"id", text(), "an id"}, any_id{"id", text(), "an id, or `system`"};
         const Member name{"name", text()};
         const Member made = optional("id", text(), "", "of what is made");
         const std::vector<Member> line = {
@@ -254,7 +260,7 @@ const std::vector<Operation<SystemEdit>>& system_operations() {
              &SystemEdit::remove},
             {"rename",
              "Gives an item another name, with at least one character that is not blank.",
-             {id, name},
+             {any_id, name},
              &SystemEdit::rename},
             {"place", "Moves an item, or a comment.", {id, place("x"), place("y")}, &SystemEdit::place},
             {"line",
@@ -269,7 +275,9 @@ const std::vector<Operation<SystemEdit>>& system_operations() {
              &SystemEdit::reroute},
             {"set",
              "Sets a property of an item.",
-             {id, {"property", choice({"color", "note", "kind", "enabled", "feedback"})}, {"value", any()}},
+             {any_id,
+              {"property", choice({"color", "note", "kind", "enabled", "feedback"})},
+              {"value", any()}},
              &SystemEdit::set},
             {"type",
              "Gives an item another type; an empty one removes a module. Parameters that the new type has, "
@@ -278,7 +286,7 @@ const std::vector<Operation<SystemEdit>>& system_operations() {
              &SystemEdit::type},
             {"parameter",
              "Sets a parameter in the file.",
-             {id, name, {"value", any(), "null is the default"}},
+             {id, name, optional("value", any(), nullptr, "by default that of the type")},
              &SystemEdit::parameter},
             {"topology",
              "Makes a group a rectangle, or a group of single cells.",

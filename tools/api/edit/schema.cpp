@@ -40,7 +40,8 @@ bool fits(const json& value, const ValueType& type) {
         case Kind::boolean:
             return value.is_boolean();
         case Kind::whole:
-            return value.is_number_integer() && in_range(value, type);
+            return value.is_number() && in_range(value, type) &&
+                   std::trunc(value.get<double>()) == value.get<double>();
         case Kind::number:
             return value.is_number() && in_range(value, type);
         case Kind::text:

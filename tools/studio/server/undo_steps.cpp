@@ -9,22 +9,19 @@ constexpr std::size_t max_steps = 500;
 constexpr std::size_t max_bytes = 64u << 20;      ///< of texts
 constexpr std::size_t max_kept_bytes = 2u << 20;  ///< of these, in a checkpoint
 
-/// Drops the oldest steps; the last one stays.
-void trim(std::vector<UndoStep>& steps, std::size_t max_text) {
+/// How many of the latest steps are kept; at least one of them.
+std::size_t kept(const std::vector<UndoStep>& steps, std::size_t max_text) {
     std::size_t count = 0, bytes = 0;
-    for (auto it = steps.rbegin(); it != steps.rend(); ++it) {
-        bytes += it->bytes();
-        if (++count > max_steps || (bytes > max_text && count > 1)) {
-            steps.erase(steps.begin(), it.base());
-            return;
-        }
-    }
+    for (auto it = steps.rbegin(); it != steps.rend() && count < max_steps; ++it, ++count)
+        if (bytes += it->bytes(); bytes > max_text && count > 0) break;
+    return count;
 }
 
 bool joins(const UndoStep& step, const UndoStep& last) {
+    const auto runs = [](const UndoStep& s) { return s.world && s.world->running; };
     return !step.merge.empty() && step.merge == last.merge && step.undo.is_null() == last.undo.is_null() &&
            step.system.has_value() == last.system.has_value() &&
-           step.world.has_value() == last.world.has_value();
+           step.world.has_value() == last.world.has_value() && runs(step) == runs(last);
 }
 
 }  // namespace
@@ -51,7 +48,7 @@ void UndoSteps::add(UndoStep step) {
     }
     undo.push_back(std::move(step));
     redo.clear();
-    trim(undo, max_bytes);
+    undo.erase(undo.begin(), undo.end() - static_cast<std::ptrdiff_t>(kept(undo, max_bytes)));
 }
 
 std::vector<std::string*> UndoSteps::texts_of_system() {
@@ -63,10 +60,13 @@ std::vector<std::string*> UndoSteps::texts_of_system() {
 }
 
 void UndoSteps::checkpoint(Archive& archive) {
-    auto kept = undo;
-    trim(kept, max_kept_bytes);
-    archive(kept, redo);
-    if (archive.loading()) undo = std::move(kept);
+    for (auto* steps : {&undo, &redo}) {
+        std::uint64_t count = kept(*steps, max_kept_bytes);
+        archive(count);
+        if (archive.loading()) steps->resize(count);
+        for (auto it = steps->end() - static_cast<std::ptrdiff_t>(count); it != steps->end(); ++it)
+            archive(*it);
+    }
 }
 
 }  // namespace forage::studio

@@ -45,7 +45,7 @@ struct UndoSteps {
         return steps.empty() ? nlohmann::json(nullptr) : nlohmann::json(steps.back().title);
     }
     std::vector<std::string*> texts_of_system();
-    /// Writes or reads the steps; of what can be undone, the latest.
+    /// Writes or reads the latest steps.
     void checkpoint(Archive& archive);
 };
 

@@ -27,20 +27,20 @@ json exchange_step(Session& s, Steps& from, Steps& to, bool back) {
         set_world_text(s, std::exchange(step.world->edited, world_text(s).text));
         log_world_edit(s, {.title = title, .ended = ended}, runs);
     }
+    s.pages.status_due = true;
+    const json& action = back ? step.undo : step.redo;
+    // Throws when what it acts on is not there any more; the step is gone then.
+    if (!action.is_null()) s.act(action, {.title = title});
     if (step.system) {
         const auto now = s.edited.document->text();
         s.edited.document->write_text(std::exchange(*step.system, now));
-    }
-    if (const json& action = back ? step.undo : step.redo; !action.is_null()) {
-        // Throws when what it acts on is not there any more; the step is gone then.
-        s.act(action, {.title = title});
-        if (step.system) {
+        if (action.is_null()) {
+            s.follow_document(title);
+        } else {
             const auto assignments = action.at("assignments").get<std::vector<std::string>>();
             s.note_parameters(assignments);
             if (switches_module(assignments)) s.pages.broadcast(s.system_message());
         }
-    } else if (step.system) {
-        s.follow_document(title);
     }
     to.push_back(std::move(step));
     s.broadcast_document();

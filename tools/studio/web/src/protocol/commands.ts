@@ -373,7 +373,7 @@ export type Operation =
   | { do: 'reroute'; id: string; source?: string | null; target?: string | null }
   | { do: 'set'; id: string; property: 'color' | 'note' | 'kind' | 'enabled' | 'feedback'; value: unknown }
   | { do: 'type'; id: string; part: 'neuron' | 'synapse' | 'module'; type: string }
-  | { do: 'parameter'; id: string; name: string; value: unknown }
+  | { do: 'parameter'; id: string; name: string; value?: unknown | null }
   | { do: 'topology'; id: string; width?: number | null; height?: number | null; wrap_x?: boolean | null; wrap_y?: boolean | null; points?: number[][] | null }
   | { do: 'pattern'; id: string; pattern: unknown }
   | { do: 'arborization'; id: string; arborization: unknown }
