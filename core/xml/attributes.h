@@ -39,15 +39,13 @@ ParameterValue value_of(const AttributeOf<Struct>& attribute, const Struct& s) {
     const auto& choices = attribute.rule.value.choices;
     return std::visit(
         [&]<class T>(T Struct::*member) -> ParameterValue {
-            if constexpr (std::is_same_v<T, std::string>)
+            constexpr bool is_text = std::is_same_v<T, std::string>;
+            if constexpr (std::is_class_v<T> && !is_text) return std::string();
+            if constexpr (!std::is_class_v<T>)
+                if (!choices.empty()) return choices[static_cast<std::size_t>(s.*member)];
+            if constexpr (is_text || std::is_same_v<T, bool> || std::is_same_v<T, double>)
                 return s.*member;
-            else if constexpr (std::is_class_v<T>)
-                return std::string();
-            else if (!choices.empty())
-                return choices[static_cast<std::size_t>(s.*member)];
-            else if constexpr (std::is_same_v<T, bool> || std::is_same_v<T, double>)
-                return s.*member;
-            else
+            else if constexpr (!std::is_class_v<T>)
                 return static_cast<int>(s.*member);
         },
         attribute.member);

@@ -313,9 +313,9 @@ std::optional<model::System> read_system(const std::string& path, Diagnostics& d
     return build_system(open(path, system_format(), diagnostics).get(), diagnostics);
 }
 
-std::optional<model::System> parse_system(std::string path, std::string text, Diagnostics& diagnostics) {
-    return build_system(open(std::move(path), std::move(text), system_format(), diagnostics).get(),
-                        diagnostics);
+std::optional<model::System> parse_system(const std::string& path, std::string text,
+                                          Diagnostics& diagnostics) {
+    return build_system(open(path, std::move(text), system_format(), diagnostics).get(), diagnostics);
 }
 
 std::optional<model::ProcessFile> read_process(const std::string& path, Diagnostics& diagnostics) {

@@ -15,7 +15,8 @@ std::optional<model::System> read_system(const std::string& path, Diagnostics& d
 
 /// Reads a text as read_system() reads a file; messages call it `path`. Links are relative to the directory
 /// of `path`.
-std::optional<model::System> parse_system(std::string path, std::string text, Diagnostics& diagnostics);
+std::optional<model::System> parse_system(const std::string& path, std::string text,
+                                          Diagnostics& diagnostics);
 
 /// Reads a process file as read_system() reads a system file.
 std::optional<model::ProcessFile> read_process(const std::string& path, Diagnostics& diagnostics);

@@ -32,11 +32,11 @@ std::string path_of(const SystemGroup& self) {
 std::string where(const SystemParameters& self) {
     std::string name;
     if (self.owner == Owner::group)
-        name = path_of({self});
+        name = path_of({{self.system, self.id}});
     else if (self.owner == Owner::process)
-        name = name_of(SystemProcess{self}.use());
+        name = name_of(SystemProcess{{self.system, self.id}}.use());
     else
-        name = model::trim(SystemConnection{self}.use().name);
+        name = model::trim(SystemConnection{{self.system, self.id}}.use().name);
     Diagnostics ignored;
     const auto item = model::find_item(self.system->model, name, "", ignored);
     if (!item || item->id != self.id || item->owner != self.owner) name = self.id;
@@ -54,12 +54,13 @@ model::Assignment find(const SystemParameters& self, const std::string& name) {
 const std::vector<Parameter>* declared(const SystemParameters& self) {
     const auto parameters = [](const auto* type) { return type ? &type->parameters : nullptr; };
     const Registry& types = *self.system->types;
-    if (self.owner == Owner::group) return parameters(types.neuron(SystemGroup{self}.use().neuron.type));
+    if (self.owner == Owner::group)
+        return parameters(types.neuron(SystemGroup{{self.system, self.id}}.use().neuron.type));
     if (self.owner == Owner::process) {
-        const auto& module = SystemProcess{self}.use().module;
+        const auto& module = SystemProcess{{self.system, self.id}}.use().module;
         return module ? parameters(types.module(module->type)) : nullptr;
     }
-    const auto& synapse = SystemConnection{self}.use().synapse;
+    const auto& synapse = SystemConnection{{self.system, self.id}}.use().synapse;
     return synapse ? parameters(types.synapse(synapse->type)) : nullptr;
 }
 
