@@ -16,8 +16,8 @@ namespace forage::engine {
 namespace {
 
 constexpr auto excitatory = static_cast<std::size_t>(InputKind::excitatory);
-constexpr Index most_compared = 96;       ///< cells; of larger groups' activity only silence is noticed
-constexpr Index most_searched = 1 << 20;  ///< numbers; a group with more of them is never quiescent
+constexpr Index max_compared = 96;       ///< cells; of larger groups' activity only silence is noticed
+constexpr Index max_searched = 1 << 20;  ///< numbers; a group with more of them is never quiescent
 
 bool same_bits(const double* a, const double* b, Index n) {
     return std::memcmp(a, b, static_cast<std::size_t>(n) * sizeof *a) == 0;
@@ -63,7 +63,7 @@ Cycle::Cycle(const Plan& plan, State& state, int threads) : plan_(plan), state_(
     for (const auto& g : plan.groups) {
         if (g.pruned) continue;
         widest = std::max(widest, g.stride);
-        most = std::max(most, (g.numbers <= most_searched ? g.numbers : 0) + g.stride);
+        most = std::max(most, (g.numbers <= max_searched ? g.numbers : 0) + g.stride);
     }
     for (auto& w : workers_) {  // scratch is not in memory until a type draws numbers
         w.scratch = std::make_unique_for_overwrite<double[]>(widest * NeuronColumns::scratch_columns);
@@ -92,7 +92,7 @@ bool Cycle::begin_update(int group) {
     g.same_for = g.same_input ? g.same_for + 1 : 0;
     // Checking for quiescence costs about as much as an update, so the check runs after 1, 2, 4, 8, ...
     // updates with the same input.
-    g.looks = std::has_single_bit(g.same_for) && plan_.groups[group].numbers <= most_searched;
+    g.looks = std::has_single_bit(g.same_for) && plan_.groups[group].numbers <= max_searched;
     if (std::exchange(g.delivered, false)) g.row ^= 1;
     return true;
 }
@@ -113,7 +113,7 @@ Cycle::Found Cycle::update_part(int group, Part part, int thread) {
     double *before = workers_[thread].before.data(), *old = before;
     if (g.looks)
         each_row(g, p.stride, [&](const double* row) { old = std::copy_n(row + first, count, old); });
-    const bool small = p.cells <= most_compared;
+    const bool small = p.cells <= max_compared;
     if (small && cycle > 0) std::copy_n(activity_row(g, p, cycle - 1) + first, count, old);
 
     NeuronColumns columns(count, p.stride, cycle,
