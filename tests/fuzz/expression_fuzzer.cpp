@@ -20,12 +20,12 @@ namespace {
 
 using namespace forage;
 
-struct Small {
+struct SmallSystem {
     model::System system;
     Registry registry;
     std::optional<engine::Simulation> simulation;
 
-    Small() {
+    SmallSystem() {
         Diagnostics diagnostics;
         system = *xml::read_system(FORAGE_SOURCE_DIR "/tests/diagnostics/sound/system.iqr", diagnostics);
         add_neurons(registry);
@@ -40,7 +40,7 @@ struct Small {
 
 using Mode = model::ManipulationSpec::Mode;
 
-void manipulate(const Small& small, Mode mode, const std::string& text, Diagnostics& diagnostics) {
+void manipulate(const SmallSystem& small, Mode mode, const std::string& text, Diagnostics& diagnostics) {
     try {
         const auto spec = expression::parse_manipulation(mode, text);
         if (!spec.cells.empty())  // else it names a file
@@ -53,7 +53,7 @@ void manipulate(const Small& small, Mode mode, const std::string& text, Diagnost
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static Small small;
+    static SmallSystem small;
     if (size == 0) return 0;
     const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
     Diagnostics diagnostics;

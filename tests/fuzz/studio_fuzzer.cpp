@@ -15,12 +15,12 @@ namespace {
 using namespace forage;
 using namespace forage::studio;
 
-struct Small {
+struct SmallStudio {
     int replies = 0;
     std::string text = read_file(input().system);
     Session session;
 
-    Small()
+    SmallStudio()
         : session(input(), [this](int, bool binary, const std::string& data) {
               if (!binary && json::parse(data)["type"] == "reply") ++replies;
           }) {
@@ -48,7 +48,7 @@ bool left_out(std::string_view message) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static Small small;
+    static SmallStudio small;
     std::string_view text(reinterpret_cast<const char*>(data), size);
     for (const auto& parse :
          {+[](const std::string&t, Diagnostics&d) { xml::parse_plot_config("x.conf", t, d); },
