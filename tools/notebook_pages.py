@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Executes notebooks of the docs, and makes pages of the site of them: NAME.md, with its pictures in NAME_files.
+"""Executes notebooks of the docs, and makes pages of the site of them: NAME.md, with its pictures in NAME_files, and NAME.ipynb with
+its outputs.
 
 usage: notebook_pages.py FOLDER NOTEBOOK...
 
@@ -30,6 +31,7 @@ def executed(file, folder):
 def write_page(notebook, name, folder):
     page, resources = MarkdownExporter().from_notebook_node(notebook, {"unique_key": name, "output_files_dir": f"{name}_files"})
     (folder / f"{name}.md").write_text(page)
+    (folder / f"{name}.ipynb").write_text(nbformat.writes(notebook))
     for picture, content in resources["outputs"].items():
         (folder / picture).parent.mkdir(exist_ok=True)
         (folder / picture).write_bytes(content)
