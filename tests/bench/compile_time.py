@@ -4,7 +4,7 @@
     compile_time.py check BUILD COMPILER [--record]   compares the program with the record
 
 With CMAKE_CXX_COMPILER_LAUNCHER="python3;compile_time.py;launch" in the environment of cmake, a build notes its times, and those of
-compile_reference.cpp beside every fourth file, so that other work on the machine slows both. More than 10 % above compile_time.json
+compile_reference.cpp beside every tenth file, so that other work on the machine slows both. More than 10 % above compile_time.json
 is a failure; more than 10 % below needs a new record, which --record writes. Without notes of all files, or with another compiler
 than the recorded one, the check is skipped.
 """
@@ -36,7 +36,7 @@ def launch(command):
         return status
     log = pathlib.Path(LOG)
     lines = [f"{seconds:.2f} {command[command.index('-o') + 1]}\n"]
-    if not log.exists() or log.read_text().count("\n") % 5 == 0:
+    if not log.exists() or log.read_text().count("\n") % 11 == 0:
         _, seconds = processor_seconds(
             [command[0], "-std=c++20", "-O1", "-isystem", "/usr/include/eigen3", "-c", HERE / "compile_reference.cpp", "-o", "/dev/null"]
         )
