@@ -1,13 +1,23 @@
 #include "core/engine/parallel/thread_pool.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <utility>
+
+#include <pthread.h>
 
 namespace forage::engine {
 namespace {
 
 constexpr int no_item = std::numeric_limits<int>::max();
+
+/// The number of forks that led to this process.
+unsigned forks = 0;
+
+void count_forks() {
+    [[maybe_unused]] static const int added = pthread_atfork(nullptr, nullptr, [] { ++forks; });
+}
 
 /// Leaves the processor to the thread beside it for a moment.
 void pause() {
@@ -37,24 +47,37 @@ ThreadPool::ThreadPool(int threads) {
     const auto count = static_cast<std::size_t>(std::max(threads, 1));
     failures_.resize(count, {no_item, nullptr});
     shares_ = std::vector<Share>(count);
+    count_forks();
+    start();
+}
+
+ThreadPool::~ThreadPool() { stop(); }
+
+void ThreadPool::start() {
+    forks_ = forks, round_ = 0, stop_ = false;
     try {
-        for (int t = 1; t < threads; ++t) workers_.emplace_back([this, t] { serve(t); });
+        for (int t = 1; t < threads(); ++t) workers_.emplace_back([this, t] { serve(t); });
     } catch (...) {
         stop();
         throw;
     }
 }
 
-ThreadPool::~ThreadPool() { stop(); }
-
 void ThreadPool::stop() {
-    stop_ = true;
-    round_.fetch_add(1, std::memory_order_release);
-    round_.notify_all();
-    for (auto& w : workers_) w.join();
+    if (forks_ == forks) {
+        stop_ = true;
+        round_.fetch_add(1, std::memory_order_release);
+        round_.notify_all();
+        for (auto& w : workers_) w.join();
+    } else {  // threads of another process can be neither joined nor destroyed
+        static auto* const lost = new std::vector<std::thread>;
+        std::ranges::move(workers_, std::back_inserter(*lost));
+    }
+    workers_.clear();
 }
 
 void ThreadPool::share() {
+    if (forks_ != forks) stop(), start();
     busy_.store(static_cast<int>(workers_.size()), std::memory_order_relaxed);
     round_.fetch_add(1, std::memory_order_release);
     round_.notify_all();

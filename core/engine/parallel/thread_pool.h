@@ -11,7 +11,8 @@
 
 namespace forage::engine {
 
-/// Runs loops whose items do not depend on each other. The calling thread works, too.
+/// Runs loops whose items do not depend on each other. The calling thread works, too. In the child of a
+/// fork(), which has none of the other threads, the next loop starts them again.
 class ThreadPool {
   public:
     /// Starts the other threads. Throws std::system_error when that fails.
@@ -20,7 +21,7 @@ class ThreadPool {
     ThreadPool(const ThreadPool&) = delete;
     ThreadPool& operator=(const ThreadPool&) = delete;
 
-    int threads() const { return static_cast<int>(workers_.size()) + 1; }
+    int threads() const { return static_cast<int>(shares_.size()); }
 
     /// Calls work(item, thread) for each item from 0 to `items` - 1, on any thread (0: the caller's), and
     /// waits for all. Allocates nothing. When several items throw, the exception of the lowest one is thrown
@@ -64,11 +65,13 @@ class ThreadPool {
         share();
     }
     void share();
+    void start();
     void stop();
     void serve(int thread);
     void take_items(int thread);
 
     std::vector<std::thread> workers_;
+    unsigned forks_ = 0;  ///< the number of forks when they were started
     void (*call_)(void*, int, int) = nullptr;
     void* work_ = nullptr;
     std::vector<Share> shares_;  ///< one per thread

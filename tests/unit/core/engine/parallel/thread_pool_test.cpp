@@ -1,8 +1,14 @@
 #include "core/engine/parallel/thread_pool.h"
 
+#include <algorithm>
+#include <array>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <system_error>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "tests/support/catch.h"
 #include "tests/support/limited_memory.h"
@@ -48,6 +54,32 @@ TEST_CASE("The exception of the lowest item that fails is thrown, and the pool c
     for (int round = 0; round < 20; ++round) CHECK_THROWS_WITH(pool.run(100, work), "7");
     auto fine = [](int, int) {};
     pool.run(100, fine);
+}
+
+TEST_CASE("The child of a fork has threads of its own, and may leave the pool unused") {
+    ThreadPool pool(3), other(2);
+    std::array<std::atomic<int>, 100> done{};
+    auto work = [&](int item, int) { ++done[static_cast<std::size_t>(item)]; };
+    pool.run(100, work);
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        alarm(60);  // ends a child that hangs
+        for (int round = 0; round < 20; ++round) pool.run(100, work);
+        const pid_t grandchild = fork();
+        pool.run(100, work);
+        const bool fine = std::ranges::all_of(done, [](const auto& n) { return n == 22; });
+        { const ThreadPool gone = ThreadPool(2); }
+        std::destroy_at(&other), std::construct_at(&other, 2);
+        int status = 0;
+        if (grandchild != 0) waitpid(grandchild, &status, 0);
+        _exit(fine && status == 0 ? 0 : 1);
+    }
+    int status = -1;
+    waitpid(child, &status, 0);
+    CHECK(status == 0);
+    pool.run(100, work);
+    for (const auto& n : done) REQUIRE(n == 2);
 }
 
 TEST_CASE("When a thread cannot be started, the running threads are ended and the error is thrown") {
