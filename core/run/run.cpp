@@ -11,6 +11,7 @@
 #include "core/engine/adopt.h"
 #include "core/model/edit.h"
 #include "core/model/lookup.h"
+#include "core/run/argument_checks.h"
 #include "core/run/module_files.h"
 #include "core/run/result_files.h"
 #include "core/run/stop_condition.h"
@@ -77,7 +78,7 @@ std::optional<Run> Run::make(model::System system, Registry registry,
                              std::unique_ptr<Environment> environment, const Options& options,
                              Diagnostics& diagnostics) {
     auto layout = engine::make_layout(system, registry, diagnostics, environment.get());
-    if (!layout) return std::nullopt;
+    if (!check_threads(options.threads, diagnostics) || !layout) return std::nullopt;
     return Run(std::move(system), std::move(registry), std::move(environment), std::move(*layout), options);
 }
 
@@ -191,6 +192,7 @@ EarlyEnd Run::advance(const RunLength& wanted_length, const AfterCycle& after_cy
     if (!simulation_) stop.declare(demand_);
     start();
     const auto origin = stop.begin(*this);
+    overrun_ = stop.overrun(), overrun_at_ = cycle() + stop.cycles().value_or(0);
     while (!stop.reached(*this, origin)) {
         step();
         if (after_cycle) after_cycle(stop, origin);
@@ -223,6 +225,7 @@ void Run::write(std::string_view text, std::span<const double> values) {
     wanted.overwrite_group(column->group);
     require(wanted, fmt::format("'{}', to be overwritten,", text));
     Column state = simulation_->writable_state(column->group, column->state);
+    check_finite(values, std::string(text));
     if (values.size() != static_cast<std::size_t>(state.size()))
         throw InputError(fmt::format("'{}' has {} cells, not {}", text, state.size(), values.size()));
     std::copy(values.begin(), values.end(), state.data());

@@ -106,6 +106,10 @@ class Run {
     std::uint64_t cycle() const { return simulation_ ? simulation_->cycle() : 0; }
     double seconds_per_cycle() const { return seconds_per_cycle_; }
     double seconds() const { return static_cast<double>(cycle()) * seconds_per_cycle_; }
+    /// By how much of a cycle the run is ahead of the lengths in seconds that it was given, when the last one
+    /// ended in this cycle. The next length in seconds is shorter by it, so that lengths add up.
+    double overrun() const { return cycle() == overrun_at_ ? overrun_ : 0; }
+    void set_overrun(double cycles) { overrun_ = cycles, overrun_at_ = cycle(); }
     SimTime time() const;
     /// The first number that was NaN or infinite, in words; empty while all numbers are finite.
     const std::string& divergence() const { return divergence_; }
@@ -167,6 +171,8 @@ class Run {
     ModuleFiles* module_files_;                     ///< one of the observers
     std::optional<engine::Simulation> simulation_;  ///< destroyed first: its modules use the streams
     std::string divergence_;
+    double overrun_ = 0;
+    std::uint64_t overrun_at_ = 0;  ///< the cycle to which it belongs
     bool failed_ = false;  ///< whether a cycle threw; always false between cycles of a run that can continue
 };
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/run/argument_checks.h"
 #include "core/run/run.h"
 
 namespace forage {
@@ -12,9 +13,11 @@ namespace {
 
 constexpr double default_seconds = 60;
 constexpr double max_cycles = 1e15;
+constexpr double rounding = 1e-9;  ///< of a number of cycles
 
-std::uint64_t cycles_in(double seconds, double seconds_per_cycle) {
-    return static_cast<std::uint64_t>(std::min(std::ceil(seconds / seconds_per_cycle - 1e-9), max_cycles));
+/// The smallest number of whole cycles that are at least `cycles`.
+std::uint64_t whole(double cycles) {
+    return static_cast<std::uint64_t>(std::clamp(std::ceil(cycles - rounding), 0.0, max_cycles));
 }
 
 void check_trials(const RunLength& length, const Run& run, Diagnostics& diagnostics) {
@@ -50,13 +53,19 @@ void check_trials(const RunLength& length, const Run& run, Diagnostics& diagnost
 
 StopCondition StopCondition::make(const RunLength& length, const Run& run, Diagnostics& diagnostics) {
     StopCondition out;
+    if (!check_length(length, diagnostics)) return out;
     out.length_ = length;
     if (length.trials) check_trials(length, run, diagnostics);
-    if (length.cycles)
+    if (length.cycles) {
         out.cycles_ = *length.cycles;
-    else if (length.seconds || (!length.trials && length.until.empty()))
-        out.cycles_ = cycles_in(length.seconds.value_or(default_seconds), run.seconds_per_cycle());
-    out.timeout_ = cycles_in(length.trial_timeout, run.seconds_per_cycle());
+    } else if (length.seconds || (!length.trials && length.until.empty())) {
+        const double wanted =
+            length.seconds.value_or(default_seconds) / run.seconds_per_cycle() - run.overrun();
+        out.cycles_ = whole(wanted);
+        out.overrun_ = static_cast<double>(*out.cycles_) - wanted;
+        if (out.overrun_ < rounding) out.overrun_ = 0;
+    }
+    out.timeout_ = whole(length.trial_timeout / run.seconds_per_cycle());
     if (!length.until.empty())
         out.until_ = observe::parse_condition(run.layout(), run.has_trials(), length.until.text,
                                               length.in_code || length.until.at.file ? "until" : "--until",

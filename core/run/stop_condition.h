@@ -39,6 +39,8 @@ class StopCondition {
     std::string progress(const Run& run) const;
     /// The number of cycles after which the run ends; empty when trials end it.
     std::optional<std::uint64_t> cycles() const { return cycles_; }
+    /// By how many cycles they are longer than the seconds that were given, and those of the length before.
+    double overrun() const { return overrun_; }
 
     void declare(engine::Demand& demand) const {
         if (until_) until_->declare(demand);
@@ -47,6 +49,7 @@ class StopCondition {
   private:
     RunLength length_;
     std::optional<std::uint64_t> cycles_;
+    double overrun_ = 0;
     std::uint64_t timeout_ = 0;  ///< cycles
     std::optional<observe::Condition> until_;
 };

@@ -1,5 +1,7 @@
 """Running: the same numbers as the command line, callbacks, threads, Ctrl-C."""
+import copy
 import gc
+import os
 import signal
 import threading
 import weakref
@@ -56,6 +58,73 @@ def test_lengths_count_from_now_on(dac):
     assert dac.seconds == pytest.approx(dac.cycle * dac.seconds_per_cycle)
     dac.run(trials=1)
     assert dac.trial == 2 and len(dac.trials) == 1
+
+
+def test_lengths_in_seconds_add_up():
+    with forage.open(SMALL) as run:  # cycles of 0.04 s
+        for _ in range(100):
+            run.run(seconds=0.1)
+        assert run.cycle == 250
+        run.run(seconds=0.1)
+        again = copy.copy(run)
+        for r in (run, again):
+            r.run(seconds=0.1)
+            assert r.cycle == 255
+
+
+@pytest.mark.parametrize("length", [{"seconds": s} for s in (-1, float("nan"), float("inf"), 1e300)] + [{"cycles": 2, "seconds": 1}, {"cycles": 2**64 - 1}])
+def test_lengths_that_no_run_has_are_errors(length):
+    with forage.open(SMALL) as run:
+        for call in (run.run, lambda **given: run.run_until("cycle > 10", **given)):
+            with pytest.raises(forage.InputError, match="seconds: |a run has only one length|too many"):
+                call(**length)
+        with pytest.raises(forage.InputError, match="trial_timeout"):
+            run.run(cycles=1, trial_timeout=-1)
+        assert run.cycle == 0
+    with pytest.raises((forage.InputError, ValueError), match="seconds: |a run has only one length|too many"):
+        forage.sweep(SMALL, seeds=1, measure=lambda run: run.cycle, **length)
+    with pytest.raises((forage.InputError, ValueError), match="seconds: |a run has only one length|too many"):
+        forage.sweep(SMALL, seeds=1, **length)
+
+
+@pytest.mark.parametrize("number", [float("nan"), float("inf"), None, [float("nan")] * 4])
+def test_numbers_that_are_not_finite_are_errors(number):
+    with forage.open(SMALL) as run:
+        group = run[run.groups[0]]
+        for change in (group.set, group.clamp, group.add, group.multiply):
+            with pytest.raises(forage.InputError, match="finite"):
+                change(number)
+        assert not run.manipulations
+        with pytest.raises(ValueError, match="could not convert"):
+            group.set("word")
+
+
+@pytest.mark.parametrize("threads", [-1, 0, 10000])
+def test_threads_are_a_number_of_threads(threads):
+    with pytest.raises(forage.InputError, match="is not a number of threads"):
+        forage.open(SMALL, threads=threads)
+    with pytest.raises(forage.InputError, match="jobs: -1"):
+        forage.sweep(SMALL, cycles=1, jobs=-1)
+
+
+def test_a_forked_process_continues_a_run_that_has_threads():
+    with forage.System("large") as system:
+        process = system.add_process("P")
+        a, b = process.add_group("A", 100, 100, "neuronRandomSpike"), process.add_group("B", 100, 100, "neuronLinearThreshold")
+        system.connect(a, b)
+    with forage.open(system, threads=2) as run:
+        run.run(cycles=10)
+        with forage.open(system) as other:
+            other.run(cycles=30)
+            expected = other.digest()
+        child = os.fork()
+        if child == 0:
+            signal.alarm(60)
+            run.run(cycles=20)
+            os._exit(run.digest() != expected)
+        assert os.waitpid(child, 0)[1] == 0
+        run.run(cycles=20)
+        assert run.digest() == expected
 
 
 def test_a_condition_ends_a_run(dac):

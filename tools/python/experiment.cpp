@@ -111,12 +111,20 @@ struct PythonExperiment {
     }
 };
 
+/// The number of runs at a time.
+int jobs_of(int jobs) {
+    if (jobs < 0)
+        throw InputError(fmt::format("jobs: {} is not a number of runs at a time", jobs),
+                         "0 is one per core");
+    return jobs > 0 ? jobs : cores();
+}
+
 py::list run_all(const PythonExperiment& self, const std::string& directory, int jobs, bool fresh,
                  py::object progress) {
     Watch watch(std::move(progress));
     const ExperimentSettings settings{.directory = directory,
                                       .plugins = self.plugins,
-                                      .jobs = jobs,
+                                      .jobs = jobs_of(jobs),
                                       .fresh = fresh,
                                       .callbacks = watch.callbacks()};
     ExperimentOutcome outcome;
@@ -237,7 +245,7 @@ void add_experiments(py::module_& module) {
         .def("part", &run_shard)
         .def("missing", &missing_runs)
         .def("run", &run_all);
-    module.def("_cores", &cores);
+    module.def("_jobs", &jobs_of);
 }
 
 }  // namespace forage::python

@@ -80,8 +80,7 @@ py::list directory(const py::object& self) {
 /// One pattern per cycle: `values` is a number, an array of the group's shape, or a list of such arrays.
 std::vector<std::vector<double>> patterns_of(const py::object& values, const GroupShape& group,
                                              const std::string& what) {
-    const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(values);
-    if (!array) throw py::error_already_set();
+    const py::array_t<double, py::array::c_style | py::array::forcecast> array(values);
     std::vector<std::vector<double>> out;
     if (array.ndim() == static_cast<py::ssize_t>(shape_of(group).size()) + 1)
         for (const auto& pattern : array)
@@ -199,7 +198,7 @@ values: a number for all cells, an array of the group's shape, or an array with 
 every: the number of cycles from one pattern to the next; the activity is left alone in between.
 times: how often the patterns are played; None for endlessly.
 
-Returns a Manipulation. Raises InputError for another shape, and for a group that the run was not opened to overwrite.)")
+Returns a Manipulation. Raises InputError for another shape, for numbers that are not finite, and for a group that the run was not opened to overwrite.)")
         .def("add", &manipulate<Mode::add>, "values"_a, "every"_a = 1, "times"_a = py::none(),
              "Adds to the activity, otherwise like clamp().")
         .def("multiply", &manipulate<Mode::multiply>, "values"_a, "every"_a = 1, "times"_a = py::none(),
@@ -211,7 +210,7 @@ Returns a Manipulation. Raises InputError for another shape, and for a group tha
 values: a number for all cells, or an array of the group's shape.
 state: the name of a state; the activity without it.
 
-Raises InputError for another shape, for an input, and for a group that the run was not opened to overwrite.)")
+Raises InputError for another shape, for numbers that are not finite, for an input, and for a group that the run was not opened to overwrite.)")
         .def("__getattr__", &attribute, "name"_a)
         .def("__dir__", &directory)
         .def("_repr_html_", html("group"))

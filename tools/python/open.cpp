@@ -188,10 +188,12 @@ Python continues while a run runs. As a context manager it closes itself. copy.c
             "progress"_a = none, "trial_timeout"_a = 300.0,
             R"(Runs for a number of cycles, seconds of the world or trials of the first robot, from now on; for 60 seconds without any of them.
 
+Seconds end with the first cycle that completes them. What this cycle is longer shortens the next length in seconds, so calls in a row add up.
 progress: True for a bar on the standard error, or a function that is called ten times per second with the fraction that is done, 0 to 1, and a text.
 trial_timeout: seconds of the world. A trial that takes longer raises RunError.
 
-Ctrl-C raises KeyboardInterrupt between two cycles. After it, and after what a callback raises, the run can continue.)")
+Raises InputError for two lengths, and for lengths that are negative or not finite. Ctrl-C raises KeyboardInterrupt between two cycles. After it, and after
+what a callback raises, the run can continue.)")
         .def(
             "run_until", &run_until, "condition"_a, py::kw_only(), "cycles"_a = none, "seconds"_a = none,
             "trials"_a = none, "progress"_a = none, "trial_timeout"_a = 300.0,
@@ -321,7 +323,7 @@ world: the path of a world file (.world) in which its robots live; none without 
 seed: decides everything random.
 settings: parameters by name, {"Process/Group.threshold": 0.5}, or texts as for `forage run --set`.
 plugins: shared objects with types, and folders of them, in addition to FORAGE_PLUGIN_PATH and the folder "plugins" beside the system.
-threads: the largest number of threads that share a cycle; the numbers do not depend on it.
+threads: the largest number of threads that share a cycle, 1 to 1024; the numbers do not depend on it.
 lenient: whether mistakes that the original accepts are warnings, not errors.
 noise: whether motors and sensors are noisy.
 real_time_factor: seconds of the world per second of the clock; the world's own rate without it.

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "core/run/argument_checks.h"
+
 namespace forage::python {
 namespace {
 
@@ -62,8 +64,8 @@ py::array array_of(std::vector<double> values, const std::vector<py::ssize_t>& s
 }
 
 std::vector<double> numbers_of(const py::object& values, const GroupShape& group, const std::string& what) {
-    const auto array = py::array_t<double, py::array::c_style | py::array::forcecast>::ensure(values);
-    if (!array) throw py::error_already_set();
+    const py::array_t<double, py::array::c_style | py::array::forcecast> array(values);
+    check_finite({array.data(), static_cast<std::size_t>(array.size())}, what);
     const auto cells = static_cast<std::size_t>(group.cells);
     if (array.ndim() == 0) return std::vector<double>(cells, *array.data());
     const std::vector<py::ssize_t> given(array.shape(), array.shape() + array.ndim()),

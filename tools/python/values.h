@@ -48,7 +48,7 @@ void take(const py::kwargs& given, const char* name, T& value) {
     try {
         value = given[name].cast<T>();
     } catch (const py::cast_error&) {
-        throw py::type_error(std::string(name) + " cannot be a value of type " + class_name(given[name]));
+        throw py::type_error(std::string(name) + " cannot be " + py::repr(given[name]).cast<std::string>());
     }
 }
 

@@ -1,10 +1,11 @@
 #include "tools/api/open/moves.h"
 
-#include <cmath>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
+
+#include "core/run/argument_checks.h"
 
 namespace forage {
 
@@ -41,14 +42,8 @@ void check_movable(Run& run, std::string_view name) {
     if (!world.find(name)) find_object(world, name);
 }
 
-void check_place(double x, double y, std::optional<double> heading) {
-    if (!std::isfinite(x) || !std::isfinite(y) || !std::isfinite(heading.value_or(0)))
-        throw InputError("a place has finite numbers", "x and y in m, the heading in rad");
-    if (std::abs(x) > 1e4 || std::abs(y) > 1e4) throw InputError("a place is within 10 km");
-}
-
 void move(Run& run, std::string_view name, double x, double y, std::optional<double> heading) {
-    check_place(x, y, heading);
+    check_pose(x, y, heading);
     auto& world = world_of(run);
     bool moved = false;
     if (const auto robot = world.find(name)) {

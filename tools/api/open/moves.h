@@ -17,8 +17,6 @@ std::size_t find_robot(Run& run, std::string_view name);
 
 /// Throws InputError when the world has no robot and no movable object with this name.
 void check_movable(Run& run, std::string_view name);
-/// Throws InputError for numbers that are not finite, and for a place more than 10 km away.
-void check_place(double x, double y, std::optional<double> heading);
 /// Throws InputError when the world has no such robot or start pose; both may be empty as for begin_trial().
 void check_start(Run& run, std::string_view robot, std::optional<std::size_t> start);
 

@@ -22,8 +22,8 @@ std::string absolute(const std::string& path) {
     return path.empty() ? path : std::filesystem::absolute(path).string();
 }
 
-/// An observer that open() does not add, because it is created when the run resumes.
-enum class Saved : std::uint8_t { recording, manipulation, measures };
+/// An observer that open() does not add, because it is created when the run resumes; or Run::overrun().
+enum class Saved : std::uint8_t { recording, manipulation, measures, overrun };
 
 void keep(Archive& archive, std::string& source, std::uint64_t& every) { archive(source, every); }
 
@@ -62,11 +62,13 @@ bool save(Archive& archive, const Observer& observer) {
     return true;
 }
 
-/// Reads one observer, and adds it to the run.
-void restore(Archive& archive, Run& run) {
+/// Reads one observer, and adds it to the run; or reads the overrun.
+void restore(Archive& archive, Run& run, double& overrun) {
     Saved kind{};
     archive(kind);
-    if (kind == Saved::recording) {
+    if (kind == Saved::overrun) {
+        archive(overrun);
+    } else if (kind == Saved::recording) {
         std::string source;
         std::uint64_t every = 1;
         keep(archive, source, every);
@@ -149,6 +151,11 @@ std::string save_state(Run& run) {
     Archive observers;
     std::uint64_t count = 0;
     for (const auto& o : run.observers()) count += save(observers, *o);
+    if (double ahead = run.overrun(); ahead > 0) {
+        Saved kind = Saved::overrun;
+        observers(kind, ahead);
+        ++count;
+    }
     std::string list = observers.bytes();
     Archive out;
     out(run.opened_as, count, list, run);
@@ -170,9 +177,11 @@ Run resume(std::string_view state) {
     check_types(origin.types);
     Run run = open(origin.system, origin.text, origin.options, nullptr);
     Archive observers{std::string_view(list)};
-    for (; count > 0; --count) restore(observers, run);
+    double overrun = 0;
+    for (; count > 0; --count) restore(observers, run, overrun);
     run.start();
     archive(run);
+    run.set_overrun(overrun);
     if (!archive.left().empty()) throw ArchiveError("the state contains more than the run");
     return run;
 }

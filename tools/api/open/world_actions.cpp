@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/model/world_change.h"
+#include "core/run/argument_checks.h"
 #include "core/run/input_error.h"
 #include "tools/api/open/moves.h"
 
@@ -16,7 +17,7 @@ using expression::NewTrial;
 
 void check(Run& run, const Move& m) {
     check_movable(run, m.name.text);
-    check_place(m.x, m.y, m.heading);
+    check_pose(m.x, m.y, m.heading);
 }
 void check(Run& run, const NewTrial& t) { check_start(run, t.robot.text, t.start); }
 

@@ -82,7 +82,7 @@ def experiment(
 
     directory: for the results; forage-out/ and the name of the file without it. Runs that are finished there are not repeated, unless `fresh` is set.
     plugins: shared objects with types, and folders of them, as for open().
-    jobs: the number of runs at a time; one per core without it.
+    jobs: the number of runs at a time; 0 is one per core.
     progress: True for a bar on the standard error, or a function that is called ten times per second with the fraction that is done, 0 to 1, and a text.
 
     executor: a concurrent.futures.Executor or a dask.distributed.Client whose workers execute the runs, one at a time each. They need the same files and the
@@ -233,7 +233,7 @@ def sweep(
             return _forage.open(file, world=world, seed=seed, settings=changes, **setup)
 
         work = _Work(open_run, None if alone else (until, length), declared, functions)
-        return _table(_columns(names, runs, work.all(runs, jobs or _forage._cores(), _reporter(progress))), None)
+        return _table(_columns(names, runs, work.all(runs, _forage._jobs(jobs), _reporter(progress))), None)
 
 
 def _measures(measure: typing.Any) -> tuple[dict[str, Function], dict[str, dict[str, str]]]:

@@ -1,5 +1,7 @@
 #include "core/run/run.h"
 
+#include <cmath>
+
 #include "core/run/environment.h"
 #include "core/run/result_files.h"
 #include "tests/unit/core/engine/simulations.h"
@@ -74,6 +76,30 @@ TEST_CASE("A run ends when a condition holds") {
     CHECK(run.until({.cycles = 2}).empty());  // counted from now on
     CHECK(run.cycle() == 7);
     CHECK_THROWS_AS(run.until({.trials = 1}), InputError);
+}
+
+TEST_CASE("Lengths in seconds add up, also where they are no whole number of cycles") {
+    const auto ended = [](Run& run, double seconds) { return run.until({.seconds = seconds}), run.cycle(); };
+    Run run = tidal();  // cycles of 0.5 s
+    CHECK(ended(run, 0.75) == 2);
+    CHECK(ended(run, 0.75) == 3);
+    for (int i = 0; i < 1000; ++i) run.until({.seconds = 0.1});
+    CHECK(run.cycle() == 203);
+    CHECK(ended(run, 0.1) == 204);
+    run.step();  // from here on, as the run was moved on otherwise
+    CHECK(ended(run, 0.1) == 206);
+    CHECK(ended(run, 0.4) == 206);
+    CHECK(ended(run, 0.1) == 207);
+    CHECK_THROWS_AS(ended(run, -1), InputError);
+    CHECK(ended(run, 0.4) == 207);
+}
+
+TEST_CASE("A run refuses numbers that are not finite, and impossible numbers of threads") {
+    Run run = tidal();
+    run.step();
+    CHECK_THROWS_AS(run.write("P/A", std::vector<double>{1, std::nan("")}), InputError);
+    CHECK_THROWS_AS(tidal({.threads = 0}), InputError);
+    CHECK_THROWS_AS(tidal({.threads = -1}), InputError);
 }
 
 TEST_CASE("States can be read and written, and parameters can be changed") {
