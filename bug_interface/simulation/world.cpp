@@ -220,6 +220,21 @@ bool World::move_body(std::size_t body, const Pose2& pose) {
     return free;
 }
 
+std::optional<std::size_t> World::first_blocked(std::span<const std::pair<std::size_t, Pose2>> robots) {
+    Archive before;
+    before(*physics_);
+    for (const auto& robot : robots) physics_->remove(robot.first);
+    const auto blocked = std::ranges::find_if(robots, [this](const auto& robot) {
+        const bool free = physics_->is_collision_free(robot.first, robot.second);
+        physics_->place(robot.first, robot.second);
+        return !free;
+    });
+    Archive{std::string_view(before.bytes())}(*physics_);
+    return blocked == robots.end()
+               ? std::nullopt
+               : std::optional(static_cast<std::size_t>(std::distance(robots.begin(), blocked)));
+}
+
 /// A robot that is being reset is observed at a random start pose.
 void World::update_body_poses() {
     for (std::size_t i = 0; i < robots_.size(); ++i) {

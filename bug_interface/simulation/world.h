@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "bug_interface/motion/physics.h"
@@ -88,6 +89,9 @@ class World final : public Environment {
     /// overlap something there, and while the robot is being reset.
     bool move_robot(std::size_t bug, const Pose2& pose);
     bool move_object(std::size_t object, const Pose2& pose);
+    /// The first of these robots that would overlap something if all of them were at these poses. Changes
+    /// nothing.
+    std::optional<std::size_t> first_blocked(std::span<const std::pair<std::size_t, Pose2>> robots);
     bool has_gripper(std::size_t bug) const { return !robots_[bug].hinges.empty(); }
     /// The angle of a hinge of the gripper, rad.
     double gripper_angle(std::size_t bug, std::size_t hinge) const {

@@ -1,5 +1,6 @@
 """Environments for learning agents: the contracts of Gymnasium and PettingZoo, and that they act and sense as brains do."""
 import os
+import signal
 import subprocess
 import sys
 import threading
@@ -108,6 +109,100 @@ def test_episodes_are_the_trials_of_the_run_and_start_where_they_should():
     assert len(env.run.trials) == 20
     gps = env.reset(options={"start": (1, -2, 0.5)})[0]
     assert gps == pytest.approx([11, 8, 0.5 + numpy.pi], abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    "start, why",
+    [
+        ((numpy.nan, 0, 0), "finite"),
+        ((0, 0, numpy.inf), "finite"),
+        ((1e308, 0, 0), "10 km"),
+        ((2.6, 0, 0), "out of bounds"),
+        ((0, 2.5, 0), "ends at once"),
+        ((0, 0), "not a pose"),
+        ((0, 0, 0, 0), "not a pose"),
+        (("a", 0, 0), "not a pose"),
+        ("abc", "not a pose"),
+        (5, "not a pose"),
+    ],
+)
+def test_a_pose_at_which_no_robot_can_start_is_an_error(start, why):
+    env = BugEnv(WORLD, sensors=["gps"])
+    env.reset(seed=1)
+    with pytest.raises(forage.InputError, match=why):
+        env.reset(options={"start": start})
+    with pytest.raises(forage.InputError, match=why):
+        env.reset(seed=2, options={"start": start})
+    assert env.reset(seed=1)[0] == pytest.approx(BugEnv(WORLD, sensors=["gps"]).reset(seed=1)[0])
+    several = BugVectorEnv(2, WORLD, sensors=["gps"])
+    with pytest.raises(ValueError, match=why):
+        several.reset(options={"start": start})
+    several.reset()
+
+
+def test_robots_do_not_start_in_each_other_and_options_are_known():
+    env = BugParallelEnv(TWO, sensors=["gps"])
+    apart = {"Scout": (0, 0, 0), "Follower": (1, 0, 0)}
+    assert env.reset(options={"start": apart})[0]["Follower"][0] == pytest.approx(11, abs=1e-3)
+    swapped = env.reset(options={"start": {"Scout": (1, 0, 0), "Follower": (0, 0, 0)}})[0]
+    assert [swapped[name][0] for name in ("Scout", "Follower")] == pytest.approx([11, 10], abs=1e-3)
+    for start, why in [
+        ({"Scout": (0, 0, 0), "Follower": (0, 0, 1)}, "something is already"),
+        ({"Scout": (0, 0, 0)}, "one for each of Scout, Follower"),
+        ({"Scuot": (0, 0, 0), "Follower": (1, 0, 0)}, "one for each of Scout, Follower"),
+        ((0, 0, 0), "1 start poses for 2 agents"),
+    ]:
+        with pytest.raises(forage.InputError, match=why):
+            env.reset(options={"start": start})
+    with pytest.raises(forage.InputError, match="something is already at the start pose .-3, -1"):
+        BugEnv(TWO).reset(options={"start": (-3, -1, 0)})  # where the Follower stands
+    with pytest.raises(forage.InputError, match="unknown options begin"):
+        env.reset(options={"begin": apart})
+    with pytest.raises(forage.InputError, match="no agent Scuot"):
+        env.step({"Scout": 1, "Follower": 1, "Scuot": 1})
+    for one in (BugEnv(WORLD), BugVectorEnv(2, WORLD)):
+        with pytest.raises(forage.InputError, match="unknown options Start"):
+            one.reset(options={"Start": (0, 0, 0)})
+
+
+def test_worlds_side_by_side_start_where_they_should():
+    env = BugVectorEnv(2, WORLD, sensors=["gps"], noise=False)
+    assert env.reset(seed=1, options={"start": (1, -1, 0)})[0][:, :2] == pytest.approx(numpy.array([[11, 9]] * 2), abs=1e-3)
+    rows = env.reset(options={"start": [(1, -1, 0), (0, 1, 0)]})[0]
+    assert rows[:, :2] == pytest.approx(numpy.array([[11, 9], [10, 11]]), abs=1e-3)
+    with pytest.raises(forage.InputError, match="3 start poses for 2"):
+        env.reset(options={"start": [(1, -1, 0)] * 3})
+
+
+@pytest.mark.parametrize(
+    "kind, wrong",
+    [
+        ("cell", [-1, 9, 1.5, numpy.nan, "1", None, numpy.inf]),
+        ("velocity", [[1.01, 0], [0, -1.01], [0, numpy.nan], ["1", "0"]]),
+        ("activity", [[-0.1] + [0] * 8, [1.1] + [0] * 8, [numpy.nan] * 9]),
+    ],
+)
+def test_an_action_outside_its_space_is_an_error(kind, wrong):
+    env, several = BugEnv(WORLD, action=kind), BugVectorEnv(2, WORLD, action=kind)
+    env.reset(seed=1), several.reset(seed=1)
+    for action in wrong:
+        with pytest.raises(forage.InputError, match="action"):
+            env.step(action)
+        with pytest.raises(forage.InputError, match="action"):
+            several.step([env.action_space.sample(), action] if kind == "cell" else numpy.array([action, action]))
+    assert env.run.cycle == BugEnv(WORLD).run.cycle  # none of them has begun a step
+    env.step(env.action_space.high if kind != "cell" else 8)
+
+
+def test_a_forked_process_steps_worlds_side_by_side():
+    env = BugVectorEnv(4, WORLD, threads=2)
+    env.reset(seed=1)
+    child = os.fork()
+    if child == 0:
+        signal.alarm(60)
+        os._exit(env.step(numpy.ones(4, int))[0].shape != (4, 32))
+    assert os.waitpid(child, 0)[1] == 0
+    env.step(numpy.ones(4, int))
 
 
 def test_the_paths_of_the_robot_are_kept_when_wanted():

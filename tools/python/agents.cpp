@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <filesystem>
+#include <string_view>
 
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -106,6 +107,14 @@ py::array_t<float> observation(const PythonAgents& self, std::size_t agent) {
     return py::array_t<float>(static_cast<py::ssize_t>(numbers.size()), numbers.data());
 }
 
+/// Texts that NumPy would read as numbers are none.
+Numbers numbers_in(const py::handle& action) {
+    const auto given = py::array::ensure(action);
+    if (!given || std::string_view("biuf").find(given.dtype().kind()) == std::string_view::npos)
+        throw InputError("an action is a number, or an array of numbers");
+    return Numbers(given);
+}
+
 void act(PythonAgents& self, std::size_t agent, const py::handle& action) {
     const InUse use(self.in_use);
     if (PyLong_Check(action.ptr()) || PyFloat_Check(action.ptr())) {
@@ -113,8 +122,7 @@ void act(PythonAgents& self, std::size_t agent, const py::handle& action) {
         if (number == -1 && PyErr_Occurred()) throw py::error_already_set();
         return self.run.act(agent, {&number, 1});
     }
-    const auto numbers = Numbers::ensure(action);
-    if (!numbers) throw InputError("an action is a number, or an array of numbers");
+    const auto numbers = numbers_in(action);
     self.run.act(agent, {numbers.data(), static_cast<std::size_t>(numbers.size())});
 }
 
@@ -135,11 +143,17 @@ py::tuple step_with(PythonAgents& self, const py::object& action) {
     return outcome(self, 0);
 }
 
-void reset(PythonAgents& self, std::optional<std::uint64_t> seed,
-           const std::vector<std::array<double, 3>>& starts) {
+using Starts = std::vector<std::array<double, 3>>;
+
+std::vector<Pose2> poses_of(const Starts& starts) {
+    std::vector<Pose2> out;
+    for (const auto& [x, y, yaw] : starts) out.push_back({x, y, yaw});
+    return out;
+}
+
+void reset(PythonAgents& self, std::optional<std::uint64_t> seed, const Starts& starts) {
     const InUse use(self.in_use);
-    std::vector<Pose2> poses;
-    for (const auto& [x, y, yaw] : starts) poses.push_back({x, y, yaw});
+    const auto poses = poses_of(starts);
     const py::gil_scoped_release others;
     self.run.reset(seed, poses);
 }
@@ -173,17 +187,20 @@ py::array_t<float> table_of(AgentPool& pool) {
     return py::array_t<float>({pool.size(), pool[0].observation(0).size()});
 }
 
-py::array_t<float> reset_pool(PythonPool& self, const std::vector<std::uint64_t>& seeds) {
+py::array_t<float> reset_pool(PythonPool& self, const std::vector<std::uint64_t>& seeds,
+                              const Starts& starts) {
     const InUse use(self.in_use);
+    const auto poses = poses_of(starts);
     auto out = table_of(self.pool);
     const auto rows = span_of(out);
     const py::gil_scoped_release others;
-    self.pool.reset(seeds, rows);
+    self.pool.reset(seeds, poses, rows);
     return out;
 }
 
-py::tuple step_pool(PythonPool& self, const Numbers& actions) {
+py::tuple step_pool(PythonPool& self, const py::object& given) {
     const InUse use(self.in_use);
+    const Numbers actions = numbers_in(given);
     AgentPool& pool = self.pool;
     const auto runs = static_cast<py::ssize_t>(pool.size());
     if (static_cast<std::size_t>(actions.size()) != pool.size() * pool[0].action_size(0))
@@ -235,7 +252,7 @@ void add_agents(py::module_& module) {
                  return std::make_unique<PythonPool>(read_task(task), runs, threads);
              }),
              "runs"_a, "threads"_a)
-        .def("reset", &reset_pool, "seeds"_a)
+        .def("reset", &reset_pool, "seeds"_a, "starts"_a)
         .def("step", &step_pool, "actions"_a)
         .def("sensors", [](PythonPool& self) { return ports(self.pool[0].sensors(0)); })
         .def("motors", [](PythonPool& self) { return ports(self.pool[0].motors(0)); })

@@ -1,14 +1,21 @@
 #include "tools/api/agents/agent_pool.h"
 
 #include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "core/base/cores.h"
 #include "core/engine/parallel/thread_pool.h"
+#include "core/run/argument_checks.h"
 
 namespace forage {
 
 AgentPool::AgentPool(const std::shared_ptr<const AgentTask>& task, std::size_t runs, int threads) {
-    if (runs == 0) throw InputError("there is no run", "1 run is the least");
+    Diagnostics diagnostics;
+    if (runs == 0) diagnostics.error({}, "there is no run", "1 run is the least");
+    if (threads != 0) check_threads(threads, diagnostics);
+    throw_errors(std::move(diagnostics));
     for (std::size_t i = 0; i < runs; ++i) runs_.emplace_back(task, task->options().input.seed + i);
     const auto usable = static_cast<std::size_t>(threads > 0 ? threads : cores());
     threads_ = std::make_unique<engine::ThreadPool>(static_cast<int>(std::min(usable, runs)));
@@ -18,10 +25,16 @@ AgentPool::~AgentPool() = default;
 
 int AgentPool::threads() const { return threads_->threads(); }
 
-void AgentPool::reset(std::span<const std::uint64_t> seeds, std::span<float> observations) {
+void AgentPool::reset(std::span<const std::uint64_t> seeds, std::span<const Pose2> starts,
+                      std::span<float> observations) {
+    if (!starts.empty() && starts.size() != runs_.size())
+        throw InputError(
+            fmt::format("there are {} start poses for {} environments", starts.size(), runs_.size()));
+    for (const Pose2& start : starts) check_pose(start.x, start.y, start.yaw);
     const auto width = runs_.front().observation(0).size();
     for (std::size_t i = 0; i < runs_.size(); ++i) {
-        seeds.empty() ? runs_[i].reset() : runs_[i].reset(seeds[i]);
+        runs_[i].reset(seeds.empty() ? std::nullopt : std::optional(seeds[i]),
+                       starts.empty() ? starts : starts.subspan(i, 1));
         std::ranges::copy(runs_[i].observation(0),
                           observations.begin() + static_cast<std::ptrdiff_t>(i * width));
     }
@@ -29,15 +42,12 @@ void AgentPool::reset(std::span<const std::uint64_t> seeds, std::span<float> obs
 
 void AgentPool::step(std::span<const double> actions, const Rows& rows) {
     const auto width = runs_.front().observation(0).size(), numbers = runs_.front().action_size(0);
+    for (std::size_t i = 0; i < runs_.size(); ++i)
+        if (!runs_[i].ended()) runs_[i].act(0, actions.subspan(i * numbers, numbers));
     auto work = [&](int item, int) {
         const auto i = static_cast<std::size_t>(item);
         AgentRun& run = runs_[i];
-        if (run.ended()) {
-            run.reset();
-        } else {
-            run.act(0, actions.subspan(i * numbers, numbers));
-            run.step();
-        }
+        run.ended() ? run.reset() : run.step();
         std::ranges::copy(run.observation(0),
                           rows.observations.begin() + static_cast<std::ptrdiff_t>(i * width));
         const auto& outcome = run.outcome(0);

@@ -35,10 +35,12 @@ class AgentPool {
     int threads() const;
     AgentRun& operator[](std::size_t i) { return runs_[i]; }
 
-    /// Begins an episode of all runs; with seeds, one per run, they are opened again.
-    void reset(std::span<const std::uint64_t> seeds, std::span<float> observations);
-    /// Runs one step of each run. `actions` has a row per run. Throws InputError and engine::RunError; of
-    /// several runs that fail, that of the first one.
+    /// Begins an episode of all runs; with seeds, one per run, they are opened again. `starts` is empty or
+    /// has the start pose of each robot. Throws InputError.
+    void reset(std::span<const std::uint64_t> seeds, std::span<const Pose2> starts,
+               std::span<float> observations);
+    /// Runs one step of each run. `actions` has a row per run. Throws InputError before the first run steps,
+    /// and engine::RunError; of several runs that fail, that of the first one.
     void step(std::span<const double> actions, const Rows& rows);
 
   private:

@@ -7,6 +7,7 @@
 
 #include "bug_interface/simulation/world_queries.h"
 #include "bug_interface/world/sdf_reader.h"
+#include "core/run/argument_checks.h"
 #include "tools/plot/film.h"
 
 namespace forage {
@@ -73,9 +74,7 @@ std::size_t numbers_of_action(ActionKind kind, const std::string& name, const Gr
 }
 
 /// The row or column, of `cells`, that stands for `value`: the first one for 1, the last one for -1.
-int nearest(double value, int cells) {
-    return static_cast<int>(std::lround((1 - std::clamp(value, -1.0, 1.0)) / 2 * (cells - 1)));
-}
+int nearest(double value, int cells) { return static_cast<int>(std::lround((1 - value) / 2 * (cells - 1))); }
 
 }  // namespace
 
@@ -166,6 +165,7 @@ AgentRun::State AgentRun::bind(const Agent& agent, Diagnostics& diagnostics) {
         diagnostics.error({}, fmt::format("there is no robot '{}' in the world", agent.robot),
                           suggest(agent.robot, world_->robot_names()));
     out.robot = robot.value_or(0);
+    out.outcome.truncated = true;  // until reset() has begun an episode
     const auto& layout = run_->layout();
     const auto& sensors = agent.body.sensors;
     std::size_t numbers = 0;
@@ -205,18 +205,44 @@ void AgentRun::reset(std::optional<std::uint64_t> seed, std::span<const Pose2> s
     if (!starts.empty() && starts.size() != task_->options().agents.size())
         throw InputError(fmt::format("there are {} start poses for {} agents", starts.size(),
                                      task_->options().agents.size()));
+    for (const Pose2& start : starts) check_pose(start.x, start.y, start.yaw);
     if (seed) open(*seed);
+    check_starts(starts);
     for (std::size_t i = 0; i < agents_.size(); ++i) {
         world_->begin_trial(agents_[i].robot, starts.empty() ? std::nullopt : std::optional(starts[i]));
+        agents_[i].trials = world_->trials(agents_[i].robot).size();
+        agents_[i].outcome = {.truncated = true};
         stop(agents_[i]);
     }
     for (int cycle = 0; cycle < cycles_to_sense; ++cycle) run_->step();
+    for (std::size_t i = 0; i < starts.size(); ++i)
+        if (world_->trials(agents_[i].robot).size() > agents_[i].trials)
+            throw InputError(
+                fmt::format("a trial from the start pose ({}, {}) ends at once", starts[i].x, starts[i].y),
+                "the robot is at a target there, or at the bounds");
     steps_ = 0;
     for (auto& agent : agents_) {
         agent.outcome = {};
         agent.trials = world_->trials(agent.robot).size();
         sense(agent);
     }
+}
+
+void AgentRun::check_starts(std::span<const Pose2> starts) {
+    const auto plan = world_->reset_plan();
+    std::vector<std::pair<std::size_t, Pose2>> placed;
+    for (const Pose2& start : starts) {
+        if (plan && !plan->bounds.contains(Eigen::Vector2d(start.x, start.y)))
+            throw InputError(
+                fmt::format("the start pose ({}, {}) is out of bounds", start.x, start.y),
+                fmt::format("x is {} to {}, and y is {} to {}", plan->bounds.min().x(),
+                            plan->bounds.max().x(), plan->bounds.min().y(), plan->bounds.max().y()));
+        placed.emplace_back(agents_[placed.size()].robot, start);
+    }
+    if (const auto blocked = world_->first_blocked(placed))
+        throw InputError(fmt::format("something is already at the start pose ({}, {})", starts[*blocked].x,
+                                     starts[*blocked].y),
+                         "choose another place");
 }
 
 void AgentRun::act(std::size_t number, std::span<const double> action) {
@@ -232,7 +258,7 @@ void AgentRun::act(std::size_t number, std::span<const double> action) {
         if (kind == ActionKind::activity) {
             for (auto& cell : motor.activity) {
                 cell = action[next++];
-                if (!std::isfinite(cell)) refuse(name, cell, "an activity is a finite number");
+                if (!(cell >= 0 && cell <= 1)) refuse(name, cell, "0 to 1");
             }
             continue;
         }
@@ -240,14 +266,17 @@ void AgentRun::act(std::size_t number, std::span<const double> action) {
         if (kind == ActionKind::velocity && cells > 1) {
             const double turn = action[next + 1];
             next += 2;
-            if (std::isnan(value) || std::isnan(turn)) refuse(name, NAN, "-1 to 1: forward, and turn");
+            for (const double v : {value, turn})
+                if (!(v >= -1 && v <= 1)) refuse(name, v, "-1 to 1: forward, and turn");
             motor.activity[static_cast<std::size_t>(nearest(value, motor.shape.height) * motor.shape.width +
                                                     nearest(turn, motor.shape.width))] = 1;
             continue;
         }
         ++next;
-        const double most = kind == ActionKind::velocity ? 1 : std::max(cells, 2) - 1;
-        if (!(value >= 0 && value <= most)) refuse(name, value, fmt::format("0 to {}", most));
+        const bool number_of_cell = kind == ActionKind::cell;
+        const double most = number_of_cell ? std::max(cells, 2) - 1 : 1;
+        if (!(value >= 0 && value <= most) || (number_of_cell && value != std::floor(value)))
+            refuse(name, value, fmt::format("{}0 to {}", number_of_cell ? "a whole number, " : "", most));
         motor.activity[cells == 1 ? 0 : static_cast<std::size_t>(value)] = cells == 1 ? value : 1;
     }
 }

@@ -94,9 +94,11 @@ class AgentRun {
     /// Begins an episode of all agents: their robots are at new start poses, or at `starts`. The robots stand
     /// for as many cycles as a sensed value needs to its group. With a seed the run is opened again;
     /// otherwise a brain keeps what it has learned. Throws InputError when `starts` has not one pose per
-    /// agent.
+    /// agent, and for poses that are out of bounds, where something is, or where a trial ends at once; the
+    /// next reset() begins an episode.
     void reset(std::optional<std::uint64_t> seed = {}, std::span<const Pose2> starts = {});
-    /// Sets the action of an agent until the next one. Throws InputError for numbers that are no action.
+    /// Sets the action of an agent until the next one. Throws InputError for numbers that ActionKind does not
+    /// name.
     void act(std::size_t agent, std::span<const double> action);
     /// Runs the cycles of a step; fewer when the episodes of all agents end. Throws engine::RunError when
     /// they have ended before.
@@ -136,6 +138,7 @@ class AgentRun {
     };
     void open(std::uint64_t seed);
     State bind(const Agent& agent, Diagnostics& diagnostics);
+    void check_starts(std::span<const Pose2> starts);
     void stop(const State& agent);
     void follow(State& agent);
     void sense(State& agent);

@@ -11,6 +11,7 @@ installed, and have the same methods elsewhere.
 """
 from __future__ import annotations
 
+import operator
 import os
 import typing
 
@@ -93,12 +94,31 @@ def _action_space(motors: typing.Any, action: typing.Any) -> typing.Any:
     return spaces.Box(numpy.array(low, numpy.float32), numpy.ones(len(low), numpy.float32), dtype=numpy.float32)
 
 
+def _start(options: typing.Any) -> typing.Any:
+    """The option of reset(); None without it."""
+    unknown = set(options or {}) - {"start"}
+    if unknown:
+        raise InputError(f"reset(): unknown options {', '.join(sorted(map(str, unknown)))}; there is start")
+    return (options or {}).get("start")
+
+
+def _pose(start: typing.Any) -> typing.Any:
+    pose = numpy.asarray(start)
+    if pose.shape != (3,) or pose.dtype.kind not in "iuf":
+        raise InputError(f"reset(): the start {start!r} is not a pose, such as (0, -1, 1.57): x, y and the heading, in m and rad")
+    return tuple(pose.tolist())
+
+
 def _starts(options: typing.Any, robots: typing.Any) -> typing.Any:
     """The start poses in the options of reset(): "start" is one of them, or a dictionary by robot."""
-    start = (options or {}).get("start")
+    start = _start(options)
     if start is None:
         return []
-    return [tuple(start[r]) for r in robots] if isinstance(start, dict) else [tuple(start)]
+    if not isinstance(start, dict):
+        return [_pose(start)]
+    if set(start) != set(robots):
+        raise InputError(f"reset(): start has a pose for {', '.join(map(str, start))}, and must have one for each of {', '.join(robots)}")
+    return [_pose(start[r]) for r in robots]
 
 
 class _Rendered:
@@ -217,6 +237,9 @@ class BugEnv(_Rendered, Env):  # type: ignore[misc]
 
         With a seed, the run is opened again, and the same actions give the same bits. Without one, the brain keeps what it has
         learned, and the robot starts at the next start pose. options={"start": (x, y, yaw)}, in m and rad, places it there.
+
+        Raises InputError for other options, and for a pose that is out of bounds, where something is, or where a trial ends
+        at once; the next reset() begins an episode.
         """
         super().reset(seed=seed)
         self._use.reset(seed, _starts(options, self._use.robots))
@@ -291,7 +314,7 @@ class BugParallelEnv(_Rendered, ParallelEnv):  # type: ignore[misc]
     def reset(self, seed: int | None = None, options: typing.Any = None) -> typing.Any:
         """Begins an episode of all agents, and returns (observations, infos), as BugEnv does.
 
-        options={"start": {robot: (x, y, yaw), ...}} places the robots.
+        options={"start": {robot: (x, y, yaw), ...}} places the robots, which must not overlap.
         """
         self._use.reset(seed, _starts(options, self.possible_agents))
         self.agents = list(self.possible_agents)
@@ -302,9 +325,11 @@ class BugParallelEnv(_Rendered, ParallelEnv):  # type: ignore[misc]
     def step(self, actions: typing.Any) -> typing.Any:
         """Runs a step with the actions of all agents, and returns (observations, rewards, terminations, truncations, infos)."""
         run = self._use
-        missing = set(self.agents) - set(actions)
+        missing, unknown = set(self.agents) - set(actions), set(actions) - set(self.possible_agents)
         if missing:
             raise InputError(f"no action for {', '.join(sorted(missing))}")
+        if unknown:
+            raise InputError(f"there is no agent {', '.join(sorted(map(str, unknown)))}")
         for name in self.agents:
             run.act(self._numbers[name], actions[name])
         run.step()
@@ -367,15 +392,24 @@ class BugVectorEnv(VectorEnv):  # type: ignore[misc]
         return self._pool
 
     def reset(self, *, seed: typing.Any = None, options: typing.Any = None) -> typing.Any:
-        """Begins an episode everywhere. `seed` is a number for environment 0, or one number per environment."""
-        seeds = [] if seed is None else [int(seed) + i for i in range(self.num_envs)] if numpy.ndim(seed) == 0 else list(seed)
-        super().reset(seed=int(seeds[0]) if seeds else None)
+        """Begins an episode everywhere. `seed` is a number for environment 0, or one number per environment.
+
+        options={"start": (x, y, yaw)} places all robots there; an array with a row per environment places each of them. It
+        raises InputError as BugEnv.reset() does; some of the environments may have begun an episode then.
+        """
+        seeds = [] if seed is None else [operator.index(seed) + i for i in range(self.num_envs)] if numpy.ndim(seed) == 0 else [operator.index(s) for s in seed]
         if seeds and len(seeds) != self.num_envs:
             raise InputError(f"{len(seeds)} seeds for {self.num_envs} environments")
-        return self._use.reset(seeds), {"reached_target": numpy.zeros(self.num_envs, bool)}
+        start = _start(options)
+        starts = [] if start is None else [_pose(s) for s in start] if numpy.ndim(start) == 2 else [_pose(start)] * self.num_envs
+        super().reset(seed=seeds[0] if seeds else None)
+        return self._use.reset(seeds, starts), {"reached_target": numpy.zeros(self.num_envs, bool)}
 
     def step(self, actions: typing.Any) -> typing.Any:
-        """Runs a step everywhere. All parts of what it returns have one row per environment."""
+        """Runs a step everywhere. All parts of what it returns have one row per environment.
+
+        Raises InputError, before any environment steps, for an action that is not in the action space.
+        """
         observations, rewards, terminated, truncated, reached = self._use.step(actions)
         return observations, rewards, terminated, truncated, {"reached_target": reached}
 
