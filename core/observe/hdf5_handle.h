@@ -1,6 +1,7 @@
 // Owning handles of HDF5's identifiers.
 #pragma once
 
+#include <cstdlib>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -41,6 +42,24 @@ class Hdf5Handle {
 inline void quiet_hdf5() {
     H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+/// How files are opened: without HDF5's locks, as file systems of clusters may have none. DirectoryHold keeps
+/// other programs from writing, and a program that reads must not stop one that writes.
+inline Hdf5Handle hdf5_access() {
+    Hdf5Handle out(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a list");
+#if H5_VERSION_GE(1, 12, 1) || (H5_VERSION_GE(1, 10, 7) && !H5_VERSION_GE(1, 12, 0))
+    H5Pset_file_locking(out, false, true);
+#endif
+    return out;
+}
+
+/// The end of a message about a file that cannot be opened, when the environment may be the reason.
+inline std::string hdf5_lock_hint() {
+    const char* locks = std::getenv("HDF5_USE_FILE_LOCKING");
+    return locks && std::string(locks) != "FALSE" && std::string(locks) != "0"
+               ? fmt::format("; HDF5_USE_FILE_LOCKING={} is set, and FALSE is needed without locks", locks)
+               : "";
 }
 
 }  // namespace forage::observe

@@ -121,10 +121,10 @@ herr_t note_set(hid_t file, const char* name, const H5L_info_t* link, void* out)
 
 std::vector<std::unique_ptr<Recording>> open_hdf5_recording(const std::string& path) try {
     quiet_hdf5();
-    hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
-    if (id < 0)
-        id = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, H5P_DEFAULT);  // of a killed run
-    const auto file = std::make_shared<Hdf5Handle>(id, H5Fclose, "read it as HDF5");
+    const Hdf5Handle access = hdf5_access();
+    hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
+    if (id < 0) id = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access);  // of a killed run
+    const auto file = std::make_shared<Hdf5Handle>(id, H5Fclose, "read it as HDF5" + hdf5_lock_hint());
     std::vector<std::string> places;
     H5Lvisit(*file, H5_INDEX_NAME, H5_ITER_NATIVE, note_set, &places);
     std::vector<std::unique_ptr<Recording>> out;

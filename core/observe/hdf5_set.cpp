@@ -50,11 +50,12 @@ void add_attribute(hid_t object, const std::string& name, std::int64_t value) {
 
 Hdf5Handle create_hdf5(const std::string& path) {
     quiet_hdf5();
-    const Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "make a list");
+    const Hdf5Handle access = hdf5_access();
     H5Pset_libver_bounds(access, H5F_LIBVER_V110, H5F_LIBVER_V110);
     const Hdf5Handle options(H5Pcreate(H5P_FILE_CREATE), H5Pclose, "make a list");
     H5Pset_obj_track_times(options, false);
-    return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, options, access), H5Fclose, "write '" + path + "'"};
+    return {H5Fcreate(path.c_str(), H5F_ACC_TRUNC, options, access), H5Fclose,
+            "write '" + path + "'" + hdf5_lock_hint()};
 }
 
 GrowingSet::GrowingSet(hid_t file, const std::string& place, hid_t disk_type, hid_t memory_type,

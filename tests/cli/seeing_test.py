@@ -6,6 +6,7 @@
 import filecmp
 import html.parser
 import json
+import os
 import pathlib
 import re
 import resource
@@ -222,6 +223,48 @@ class Formats(Cli):
             self.assertIn("trials.csv", [p.name for p in (self.here / "full").iterdir()])
             if form == "npy":
                 self.assertGreater(len(numpy.load(self.here / "full" / name)), 3)
+
+
+@unittest.skipUnless(numpy and shutil.which("gcc"), "NumPy, h5py or gcc is absent")
+class NoLocks(Cli):
+    """File systems without locks, as those of some clusters."""
+
+    LIBRARY = r"""
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+int flock(int file, int operation) { (void)file, (void)operation; errno = ENOLCK; return -1; }
+static int checked(int file, int command, void* argument) {
+    if (command == F_SETLK || command == F_SETLKW) { errno = ENOLCK; return -1; }
+    return (int)syscall(SYS_fcntl, file, command, argument);
+}
+#define FCNTL(name) int name(int file, int command, ...) { \
+    va_list rest; va_start(rest, command); void* argument = va_arg(rest, void*); va_end(rest); \
+    return checked(file, command, argument); }
+FCNTL(fcntl)
+FCNTL(fcntl64)
+"""
+
+    def test_hdf5_files_are_written_and_read_without_locks(self):
+        (self.here / "locks.c").write_text(self.LIBRARY)
+        subprocess.run(["gcc", "-shared", "-fPIC", "-o", "locks.so", "locks.c"], cwd=self.here, check=True)
+
+        def forage(*arguments, **more):
+            environment = {**os.environ, "LD_PRELOAD": str(self.here / "locks.so"), **more}
+            return subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, capture_output=True, text=True, env=environment, timeout=600)
+
+        run = ("run", SYSTEM, "--world", WORLD, "--cycles", 50, "-r", "Bug/Light", "--format", "h5", "-q", "-o")
+        for command in ((*run, "out"), ("plot", "out/recording.h5", "-o", "pictures")):
+            done = forage(*command)
+            self.assertEqual(done.returncode, 0, done.stderr)
+        with h5py.File(self.here / "out/recording.h5", locking=False) as file:
+            self.assertEqual(len(file["cycle"]), 50)
+        for command in ((*run, "again"), ("plot", "out/recording.h5", "-o", "pictures")):
+            done = forage(*command, HDF5_USE_FILE_LOCKING="TRUE")
+            self.assertNotEqual(done.returncode, 0)
+            self.assertIn("HDF5_USE_FILE_LOCKING=TRUE is set, and FALSE is needed without locks", done.stderr)
 
 
 @unittest.skipUnless(numpy, "NumPy and h5py are absent")
