@@ -8,8 +8,8 @@ namespace forage {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\n\v\f";
-constexpr std::size_t max_fields = std::size_t{1} << 24, longest_line = std::size_t{64} << 20,
-                      block_size = std::size_t{1} << 16;
+constexpr std::size_t max_fields_of_text = std::size_t{1} << 24, max_fields_of_file = std::size_t{1} << 20,
+                      longest_line = std::size_t{64} << 20, block_size = std::size_t{1} << 16;
 
 std::string_view trimmed(std::string_view text) {
     const auto first = std::min(text.find_first_not_of(blanks), text.size());
@@ -23,6 +23,7 @@ TableReader::TableReader(std::string_view text, std::string path, Layout layout,
     : source_(std::make_shared<SourceFile>(
           SourceFile{std::move(path), std::string(text.substr(0, std::size_t{1} << 20))})),
       layout_(layout),
+      max_fields_(max_fields_of_text),
       text_(text) {
     if (auto wrong = not_lines(text, refusal)) {
         if (wrong->hint.empty()) wrong->hint = hint;
@@ -31,7 +32,9 @@ TableReader::TableReader(std::string_view text, std::string path, Layout layout,
 }
 
 TableReader::TableReader(std::ifstream file, std::string path)
-    : source_(std::make_shared<SourceFile>(SourceFile{std::move(path), {}})), file_(std::move(file)) {}
+    : source_(std::make_shared<SourceFile>(SourceFile{std::move(path), {}})),
+      max_fields_(max_fields_of_file),
+      file_(std::move(file)) {}
 
 bool TableReader::read_header() {
     if (!next()) return false;
@@ -95,7 +98,7 @@ void TableReader::split() {
     if (row_.empty()) return;
     const bool any = layout_ == Layout::blocks;  // several separators count as one
     constexpr std::string_view separators = " \t\r\v\f,;";
-    for (std::size_t at = 0; at <= row_.size() && fields_.size() <= max_fields;) {
+    for (std::size_t at = 0; at <= row_.size() && fields_.size() <= max_fields_;) {
         if (any && (at = row_.find_first_not_of(separators, at)) == row_.npos) return;
         const auto rest = row_.substr(at);
         if (layout_ == Layout::csv && rest.starts_with('"')) {  // RFC 4180; a doubled quote stays doubled
@@ -114,8 +117,8 @@ void TableReader::split() {
         at = end + 1;
     }
     if (layout_ == Layout::list && fields_.back().empty()) fields_.pop_back();
-    if (fields_.size() > max_fields) {
-        fault(row_, fmt::format("more than {} fields in a row", max_fields));
+    if (fields_.size() > max_fields_) {
+        fault(row_, fmt::format("more than {} fields in a row", max_fields_));
         fields_.clear();
     }
 }

@@ -33,8 +33,8 @@ class TableReader {
     /// consist of lines; the message begins with `refusal` ("this is not a table"), and `hint` is its hint.
     TableReader(std::string_view text, std::string path, Layout layout, std::string_view refusal,
                 std::string_view hint = {});
-    /// Reads a CSV file of any size. An incomplete last line, as a killed program leaves it, is not a row
-    /// (see require_whole()).
+    /// Reads a CSV file of any size with up to 2^20 fields in a row. An incomplete last line, as a killed
+    /// program leaves it, is not a row (see require_whole()).
     TableReader(std::ifstream file, std::string path);
 
     /// Reads the next row as the names of columns. Each later row must have the same number of fields.
@@ -84,6 +84,7 @@ class TableReader {
 
     std::shared_ptr<const SourceFile> source_;  ///< with the beginning of the text, for excerpts
     Layout layout_ = Layout::csv;
+    std::size_t max_fields_;
     std::string_view text_;  ///< the rest of the text, or of the block
     std::ifstream file_;
     std::string block_;

@@ -168,6 +168,7 @@ for name, made in {
     "weights_of_a_million_words": ("weights", ("x,", M)),
     "weights_of_a_million_numbers": ("weights", ("1,\n", M)),
     "recording_of_a_million_columns": ("recording", "cycle", (",x1_y1", M), "\n"),
+    "recording_of_ten_million_columns": ("recording", "cycle", (",1", 10 * M), "\n"),
 }.items():
     CASES[name] = written(*made)
 add_kinds()
