@@ -1,6 +1,8 @@
 #include "core/observe/hdf5_recording.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -10,22 +12,46 @@
 namespace forage::observe {
 namespace {
 
-std::string text_attribute(hid_t set, const char* name) {
+constexpr int max_depth = 32;                  ///< of groups in groups; recordings need three
+constexpr std::size_t max_text = 1 << 16;      ///< bytes of an attribute
+constexpr std::uint64_t bytes_of_a_link = 16;  ///< in a file, at least
+
+/// An attribute that is a single text or number; empty when there is none.
+std::optional<Hdf5Handle> single_attribute(hid_t set, const char* name) {
     if (H5Aexists(set, name) <= 0) return {};
-    const Hdf5Handle a(H5Aopen(set, name, H5P_DEFAULT), H5Aclose, "read an attribute");
-    const Hdf5Handle type(H5Aget_type(a), H5Tclose, "read an attribute");
-    std::string out(H5Tget_size(type), '\0');
-    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 || H5Aread(a, type, out.data()) < 0)
-        return {};
+    Hdf5Handle a(H5Aopen(set, name, H5P_DEFAULT), H5Aclose, "read an attribute");
+    const Hdf5Handle space(H5Aget_space(a), H5Sclose, "read an attribute");
+    if (H5Sget_simple_extent_npoints(space) != 1) return {};
+    return a;
+}
+
+std::string text_attribute(hid_t set, const char* name) {
+    const auto a = single_attribute(set, name);
+    if (!a) return {};
+    const Hdf5Handle type(H5Aget_type(*a), H5Tclose, "read an attribute");
+    const std::size_t size = H5Tget_size(type);
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) > 0 || size > max_text) return {};
+    std::string out(size, '\0');
+    if (H5Aread(*a, type, out.data()) < 0) return {};
     out.resize(std::min(out.find('\0'), out.size()));
     return out;
 }
 
 int number_attribute(hid_t set, const char* name) {
     int out = 0;
-    if (H5Aexists(set, name) <= 0) return out;
-    const Hdf5Handle a(H5Aopen(set, name, H5P_DEFAULT), H5Aclose, "read an attribute");
-    H5Aread(a, H5T_NATIVE_INT, &out);
+    if (const auto a = single_attribute(set, name)) H5Aread(*a, H5T_NATIVE_INT, &out);
+    return out;
+}
+
+/// Opens a data set of which the file itself holds the numbers, as they are: HDF5 reads no other file, and
+/// unpacks nothing.
+Hdf5Handle open_set(hid_t file, const std::string& place) {
+    Hdf5Handle out(H5Dopen2(file, place.c_str(), H5P_DEFAULT), H5Dclose, "find '" + place + "'");
+    const Hdf5Handle made(H5Dget_create_plist(out), H5Pclose, "read how '" + place + "' is stored");
+    if (H5Pget_external_count(made) != 0 || H5Pget_layout(made) == H5D_VIRTUAL)
+        throw std::runtime_error("the numbers of '" + place + "' are in other files");
+    if (H5Pget_nfilters(made) != 0)
+        throw std::runtime_error("'" + place + "' is compressed; 'h5repack -f NONE' unpacks a file");
     return out;
 }
 
@@ -54,8 +80,8 @@ class Hdf5Recording final : public Recording {
   public:
     Hdf5Recording(std::shared_ptr<Hdf5Handle> file, const std::string& place)
         : file_(std::move(file)),
-          cycle_(H5Dopen2(*file_, "/cycle", H5P_DEFAULT), H5Dclose, "find the cycles"),
-          set_(H5Dopen2(*file_, place.c_str(), H5P_DEFAULT), H5Dclose, "find " + place),
+          cycle_(open_set(*file_, "/cycle")),
+          set_(open_set(*file_, place)),
           shape_(shape_of(set_)),
           cycles_(shape_of(cycle_)) {
         if (cycles_.size() != 1 || (shape_.size() != 1 && shape_.size() != 3) ||
@@ -73,8 +99,14 @@ class Hdf5Recording final : public Recording {
                        what_.mean ? 1 : static_cast<int>(shape_.at(2)),
                        what_.mean ? 1 : static_cast<int>(shape_.at(1)),
                        {}};
+        for (const int first : {what_.cells.x, what_.cells.y})
+            if (first < 0 || static_cast<hsize_t>(first) > max_cells)
+                throw std::runtime_error("'" + place + "' has impossible cells");
         rows_ = std::min(shape_.at(0), cycles_.at(0));
+        const Hdf5Handle type(H5Dget_type(set_), H5Tclose, "read a type");
+        claimed_ = static_cast<double>(rows_) * static_cast<double>(what_.size() * H5Tget_size(type));
     }
+    double claimed() const { return claimed_; }  ///< bytes of all rows in the file, if they are there
 
     void rewind() override { row_ = held_from_ = 0, held_.clear(); }
 
@@ -101,21 +133,53 @@ class Hdf5Recording final : public Recording {
     std::shared_ptr<Hdf5Handle> file_;
     Hdf5Handle cycle_, set_;
     std::vector<hsize_t> shape_, cycles_;
+    double claimed_ = 0;
     hsize_t rows_ = 0, row_ = 0, held_from_ = 0;
     std::vector<std::uint64_t> held_;
     std::vector<double> numbers_;
 };
 
-/// Collects the data sets of a file, except those of cycles. The links of a file are visited instead of its
-/// objects because this function has the same form in HDF5 1.10 and in later versions.
-herr_t note_set(hid_t file, const char* name, const H5L_info_t* link, void* out) {
-    if (link->type != H5L_TYPE_HARD || std::string_view(name) == "cycle") return 0;
-    const hid_t object = H5Oopen(file, name, H5P_DEFAULT);
-    if (object < 0) return 0;
-    if (H5Iget_type(object) == H5I_DATASET) static_cast<std::vector<std::string>*>(out)->emplace_back(name);
-    H5Oclose(object);
-    return 0;
-}
+/// Finds the data sets of a file. Links to other places and to other files are not followed.
+class SetFinder {
+  public:
+    explicit SetFinder(std::uint64_t file_size) : links_left_(file_size / bytes_of_a_link) {}
+
+    void visit(hid_t group, const std::string& path, int depth) {
+        if (depth > max_depth)
+            throw std::runtime_error(fmt::format("its groups are nested more than {} deep", max_depth));
+        std::vector<std::string> names;
+        // Links are visited instead of objects because this function has the same form in HDF5 1.10 and in
+        // later versions.
+        H5Literate(group, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, note_link, &names);
+        if (names.size() > links_left_) throw std::runtime_error("it claims more groups than it can hold");
+        links_left_ -= names.size();
+        for (const auto& name : names) {
+            const hid_t id = H5Oopen(group, name.c_str(), H5P_DEFAULT);
+            if (id < 0) continue;
+            const Hdf5Handle object(id, H5Oclose, "read it");
+            if (H5Iget_type(object) == H5I_GROUP) {
+                visit(object, path + name + "/", depth + 1);
+            } else if (H5Iget_type(object) == H5I_DATASET) {
+                if (path == "/" && name == "cycle")
+                    has_cycles_ = true;
+                else
+                    places_.push_back(path + name);
+            }
+        }
+    }
+    const std::vector<std::string>& places() const { return places_; }
+    bool has_cycles() const { return has_cycles_; }
+
+  private:
+    static herr_t note_link(hid_t, const char* name, const H5L_info_t* link, void* names) {
+        if (link->type == H5L_TYPE_HARD) static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+        return 0;
+    }
+
+    std::uint64_t links_left_;
+    std::vector<std::string> places_;
+    bool has_cycles_ = false;
+};
 
 }  // namespace
 
@@ -125,10 +189,19 @@ std::vector<std::unique_ptr<Recording>> open_hdf5_recording(const std::string& p
     hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
     if (id < 0) id = H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access);  // of a killed run
     const auto file = std::make_shared<Hdf5Handle>(id, H5Fclose, "read it as HDF5" + hdf5_lock_hint());
-    std::vector<std::string> places;
-    H5Lvisit(*file, H5_INDEX_NAME, H5_ITER_NATIVE, note_set, &places);
+    SetFinder sets(std::filesystem::file_size(path));
+    sets.visit(*file, "/", 0);
+    if (!sets.has_cycles() && !sets.places().empty()) throw std::runtime_error("it has no data set 'cycle'");
     std::vector<std::unique_ptr<Recording>> out;
-    for (const auto& p : places) out.push_back(std::make_unique<Hdf5Recording>(file, p));
+    double claimed = 0;
+    for (const auto& p : sets.places()) {
+        auto recording = std::make_unique<Hdf5Recording>(file, p);
+        claimed += recording->claimed();
+        out.push_back(std::move(recording));
+    }
+    if (const auto size = std::filesystem::file_size(path); claimed > static_cast<double>(size))
+        throw std::runtime_error(
+            fmt::format("it claims to hold {:.0f} bytes of numbers, and has {} bytes", claimed, size));
     return out;
 } catch (const std::exception& e) {
     throw FileError(path, {}, {error_at(0, 0, fmt::format("this is not a recording: {}", e.what()))});

@@ -1,5 +1,6 @@
 #include "core/observe/npz.h"
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +12,12 @@
 #include <zip.h>
 
 namespace forage::observe {
+namespace {
+
+constexpr std::uint64_t max_ratio = 100;                          ///< of unpacked and packed bytes
+constexpr std::uint64_t free_unpacked = std::uint64_t{64} << 20;  ///< bytes, whatever the ratio
+
+}  // namespace
 
 void join_npz(const std::string& path, const std::vector<std::pair<std::string, std::string>>& arrays) {
     namespace fs = std::filesystem;
@@ -47,36 +54,53 @@ void join_npz(const std::string& path, const std::vector<std::pair<std::string, 
     if (!reason.empty()) throw std::runtime_error(fmt::format("cannot write '{}': {}", path, reason));
 }
 
-std::vector<std::string> names_in_npz(const std::string& path) {
-    int error = 0;
-    const std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open(path.c_str(), ZIP_RDONLY, &error),
-                                                                 zip_discard);
-    if (!archive) throw std::runtime_error("it is no archive, or a damaged one");
-    std::vector<std::string> out;
-    for (zip_int64_t i = 0; i < zip_get_num_entries(archive.get(), 0); ++i)
-        if (const char* name = zip_get_name(archive.get(), static_cast<zip_uint64_t>(i), 0);
-            name && std::string_view(name).ends_with(".npy"))
-            out.emplace_back(name, std::string_view(name).size() - 4);
-    return out;
+NpzArchive::NpzArchive(const std::string& path)
+    : path_(path),
+      archive_(zip_open(path.c_str(), ZIP_RDONLY, nullptr), [](zip* z) { return zip_discard(z), 0; }) {
+    if (!archive_) throw std::runtime_error("it is no archive, or a damaged one");
+    std::error_code none;
+    std::uint64_t left = std::max(free_unpacked, max_ratio * std::filesystem::file_size(path, none));
+    for (zip_int64_t i = 0; i < zip_get_num_entries(archive_.get(), 0); ++i) {
+        zip_stat_t entry;
+        if (zip_stat_index(archive_.get(), static_cast<zip_uint64_t>(i), 0, &entry) != 0) continue;
+        constexpr zip_uint64_t needed = ZIP_STAT_NAME | ZIP_STAT_SIZE | ZIP_STAT_INDEX;
+        if ((entry.valid & needed) != needed || !std::string_view(entry.name).ends_with(".npy")) continue;
+        if (entry.size > left)
+            throw std::runtime_error(
+                fmt::format("its arrays claim to be more than {} times as large when they are unpacked; "
+                            "numpy.savez() stores large arrays as they are",
+                            max_ratio));
+        left -= entry.size;
+        names_.emplace_back(entry.name, std::string_view(entry.name).size() - 4);
+        entries_.emplace_back(entry.index, entry.size);
+    }
+}
+
+void NpzArchive::extract(std::size_t array, const std::string& npy) const {
+    const auto fail = [&](const std::string& what) {
+        throw std::runtime_error(fmt::format("cannot take '{}' out of '{}': {}", names_[array], path_, what));
+    };
+    const auto& [index, bytes] = entries_[array];
+    const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> in(zip_fopen_index(archive_.get(), index, 0),
+                                                                zip_fclose);
+    if (!in) fail(zip_strerror(archive_.get()));
+    std::ofstream out(npy, std::ios::binary);
+    std::array<char, 1 << 16> block;
+    std::uint64_t all = 0;
+    zip_int64_t n = 0;
+    while (out && all <= bytes && (n = zip_fread(in.get(), block.data(), block.size())) > 0)
+        out.write(block.data(), n), all += static_cast<std::uint64_t>(n);
+    out.close();
+    if (!out) fail("the disk is full");
+    if (n < 0 || all != bytes) fail("it is damaged");
 }
 
 void extract_npz(const std::string& path, const std::string& name, const std::string& npy) {
-    const auto fail = [&](const std::string& what) {
-        throw std::runtime_error(fmt::format("cannot take '{}' out of '{}': {}", name, path, what));
-    };
-    int error = 0;
-    const std::unique_ptr<zip_t, decltype(&zip_discard)> archive(zip_open(path.c_str(), ZIP_RDONLY, &error),
-                                                                 zip_discard);
-    if (!archive) fail("it cannot be opened");
-    const std::unique_ptr<zip_file_t, decltype(&zip_fclose)> in(
-        zip_fopen(archive.get(), (name + ".npy").c_str(), 0), zip_fclose);
-    if (!in) fail(zip_strerror(archive.get()));
-    std::ofstream out(npy, std::ios::binary);
-    std::array<char, 1 << 16> block;
-    zip_int64_t n = 0;
-    while (out && (n = zip_fread(in.get(), block.data(), block.size())) > 0) out.write(block.data(), n);
-    out.close();
-    if (n < 0 || !out) fail(n < 0 ? "it is damaged" : "the disk is full");
+    const NpzArchive archive(path);
+    const auto found = std::ranges::find(archive.names(), name);
+    if (found == archive.names().end())
+        throw std::runtime_error(fmt::format("'{}' has no array '{}'", path, name));
+    archive.extract(static_cast<std::size_t>(found - archive.names().begin()), npy);
 }
 
 }  // namespace forage::observe

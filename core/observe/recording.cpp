@@ -1,5 +1,6 @@
 #include "core/observe/recording.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
@@ -143,6 +144,12 @@ class NpyRecording final : public Recording {
         if (!rows) no_recording(path, "it does not say how many rows it has");
         rows_ = *rows;
         body_ = in_.tellg();
+        const auto bytes = std::filesystem::file_size(file), row = 8 * (1 + std::uint64_t{what_.size()});
+        if (rows_ > (bytes - std::min<std::uint64_t>(bytes, 10 + head.size())) / row)
+            throw FileError(path, {},
+                            {error_at(0, 0,
+                                      fmt::format("it has {} bytes, too few for {} rows of {} cells", bytes,
+                                                  rows_, what_.size()))});
     }
 
     void rewind() override {
@@ -182,9 +189,10 @@ std::vector<std::unique_ptr<Recording>> open_npz(const std::string& path) {
     };
     const std::unique_ptr<std::string, decltype(remove)> remover(&folder, remove);
     try {
-        for (const auto& name : names_in_npz(path)) {
-            extract_npz(path, name, folder + "/array.npy");
-            out.push_back(std::make_unique<NpyRecording>(folder + "/array.npy", path, name));
+        const NpzArchive archive(path);
+        for (std::size_t i = 0; i < archive.names().size(); ++i) {
+            archive.extract(i, folder + "/array.npy");
+            out.push_back(std::make_unique<NpyRecording>(folder + "/array.npy", path, archive.names()[i]));
             fs::remove(folder + "/array.npy");
         }
     } catch (const FileError&) {

@@ -225,6 +225,114 @@ class Formats(Cli):
                 self.assertGreater(len(numpy.load(self.here / "full" / name)), 3)
 
 
+@unittest.skipUnless(numpy, "NumPy and h5py are absent")
+class Claims(Cli):
+    """HDF5 files that claim more than they hold, or that refer to other files."""
+
+    def recording(self, change=None):
+        """Writes a recording as Forage does, and then changes it."""
+        with h5py.File(self.here / "x.h5", "w") as file:
+            file.create_dataset("cycle", data=numpy.arange(100, dtype="u8"), maxshape=(None,), chunks=(100,))
+            rows = file.create_dataset("P/A/act", data=numpy.ones((100, 2, 3)), maxshape=(None, 2, 3), chunks=(100, 2, 3))
+            rows.attrs.update(name=numpy.bytes_("P/A:act"), label=numpy.bytes_("A"), group_id=numpy.bytes_("a"), first_column=1, first_row=1, numbered=0)
+            if change:
+                change(file)
+
+    def draw(self, change):
+        """What the program says about a changed recording."""
+        self.recording(change)
+        return subprocess.run(
+            [FORAGE, "plot", "x.h5", "-o", "pictures"],
+            cwd=self.here,
+            capture_output=True,
+            text=True,
+            timeout=60,
+            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (10**9, 10**9)),
+        )
+
+    def refused(self, change, why):
+        done = self.draw(change)
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertRegex(done.stderr, rf"x.h5: error: this is not a recording: {why}")
+        self.assertFalse((self.here / "pictures").exists())
+
+    def test_files_that_claim_more_than_they_hold_are_refused(self):
+        def huge(file):
+            for name in ("cycle", "P/A/act"):
+                file[name].resize(10**11, axis=0)
+
+        def cells(file):
+            file["P"].create_dataset("B", shape=(100, 4000, 4000), chunks=(1, 100, 100))
+
+        def copies(file):
+            for i in range(1000):
+                file[f"P/A/{i}"] = file["P/A/act"]
+
+        for change in (huge, cells, copies):
+            self.refused(change, r"it claims to hold \d+ bytes of numbers, and has \d+ bytes")
+
+    def test_groups_are_not_nested_without_bound(self):
+        self.refused(lambda file: file.create_group("/".join(["g"] * 3000)), "its groups are nested more than 32 deep")
+
+        def circle(file):
+            file["P/A/again"] = file["P"]
+
+        self.refused(circle, "its groups are nested more than 32 deep")
+
+        def many(file):
+            for i in range(15):
+                group = file.require_group(f"n{i}")
+                group["a"] = group["b"] = file.require_group(f"n{i + 1}")
+
+        self.refused(many, "it claims more groups than it can hold")
+
+    def test_numbers_are_not_read_from_other_files(self):
+        with h5py.File(self.here / "other.h5", "w") as other:
+            other["cycle"], other["secret"] = numpy.arange(100, dtype="u8"), numpy.full((100, 2, 3), 5.0)
+
+        def external(file):
+            file["P"].create_dataset("B", shape=(100, 2, 3), dtype="f8", external=[("other.h5", 0, 4800)])
+
+        def virtual(file):
+            layout = h5py.VirtualLayout(shape=(100, 2, 3), dtype="f8")
+            layout[:] = h5py.VirtualSource("other.h5", "secret", shape=(100, 2, 3))
+            file.create_virtual_dataset("P/B", layout)
+
+        for change in (external, virtual):
+            self.refused(change, "the numbers of '/P/B' are in other files")
+
+        def cycles(file):
+            del file["cycle"]
+            file["cycle"] = h5py.ExternalLink("other.h5", "cycle")
+
+        self.refused(cycles, "it has no data set 'cycle'")
+
+        def linked(file):
+            file["P/B"] = h5py.ExternalLink("other.h5", "secret")
+            file["P/C"] = h5py.SoftLink("/P/A/act")
+
+        self.assertEqual(self.draw(linked).returncode, 0)
+        self.assertEqual(sorted(p.name for p in (self.here / "pictures").iterdir()), ["space_P_A_act.png", "time_P_A_act.png"])
+
+    def test_packed_numbers_are_refused_with_what_to_do(self):
+        def packed(file):
+            file["P"].create_dataset("B", data=numpy.zeros((100, 2, 3)), compression="gzip")
+
+        self.refused(packed, "'/P/B' is compressed; 'h5repack -f NONE' unpacks a file")
+
+    def test_attributes_of_other_kinds_harm_nothing(self):
+        def odd(file):
+            attributes = file["P/A/act"].attrs
+            attributes["first_row"] = numpy.full(7_000, 7)
+            attributes["numbered"] = "yes"
+            attributes["label"] = numpy.full(10_000, b"label")
+            attributes["group_id"] = "text of any length"
+
+        for value in (-1, 2**31 - 1):
+            self.refused(lambda file, value=value: file["P/A/act"].attrs.modify("first_column", value), "'/P/A/act' has impossible cells")
+        self.assertEqual(self.draw(odd).returncode, 0)
+
+
 @unittest.skipUnless(numpy and shutil.which("gcc"), "NumPy, h5py or gcc is absent")
 class NoLocks(Cli):
     """File systems without locks, as those of some clusters."""

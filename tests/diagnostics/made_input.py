@@ -6,6 +6,7 @@ CASES: name -> function of the directory, which returns what to run there.
 import dataclasses
 import os
 import resource
+import zipfile
 
 CASES = {}
 UNPRIVILEGED = 65534
@@ -172,6 +173,54 @@ for name, made in {
 }.items():
     CASES[name] = written(*made)
 add_kinds()
+
+
+def npy(rows, height, width):
+    """The head of a recording, which has no rows."""
+    head = f"{{'descr': [('cycle', '<u8'), ('act', '<f8', ({height}, {width}))], 'fortran_order': False, 'shape': ({rows},), }}".encode().ljust(117) + b"\n"
+    return b"\x93NUMPY\x01\x00" + len(head).to_bytes(2, "little") + head
+
+
+def npz(here, bytes_of_rows, claimed=None):
+    """An archive of a packed recording. It claims another size of it."""
+    rows = bytes_of_rows // 24
+    with zipfile.ZipFile(here / "input.npz", "w", zipfile.ZIP_DEFLATED, compresslevel=1) as archive:
+        with archive.open("P.npy", "w") as file:
+            file.write(npy(rows, 2, 1))
+            for _ in range(rows // 1000):
+                file.write(bytes(24_000))
+        size = archive.getinfo("P.npy").file_size
+    if claimed is not None:
+        data = (here / "input.npz").read_bytes()
+        (here / "input.npz").write_bytes(data.replace(size.to_bytes(4, "little"), claimed.to_bytes(4, "little")))
+    return Case(command("recording", "input.npz"))
+
+
+@case
+def recording_npz_that_holds_two_hundred_megabytes(here):
+    return npz(here, 200 * M)
+
+
+@case
+def recording_npz_that_claims_less_than_it_holds(here):
+    return npz(here, 200 * M, 100)
+
+
+@case
+def recording_npz_that_claims_four_gigabytes(here):
+    return npz(here, 24_000, 4 * 10**9)
+
+
+@case
+def recording_npy_that_claims_a_trillion_rows(here):
+    (here / "input.npy").write_bytes(npy(10**12, 2, 1) + bytes(240))
+    return Case(command("recording", "input.npy"))
+
+
+@case
+def recording_npy_that_claims_a_row_of_sixteen_million_cells(here):
+    (here / "input.npy").write_bytes(npy(1, 4096, 4096) + bytes(240))
+    return Case(command("recording", "input.npy"))
 
 
 @case
