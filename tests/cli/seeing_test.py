@@ -460,6 +460,14 @@ class Mistakes(Cli):
         self.assertIn("the recording ends before cycle 9\n  hint: its last cycle is 4", self.forage("plot", "rows", "space:Bug/Light@0,9").stderr)
         self.assertIn("'max' is not a function of cells here", self.forage("plot", "rows", "time:max(Bug/Light)", status=2).stderr)
 
+    def test_a_mistake_in_one_table_leaves_no_picture_of_another(self):
+        self.run_robot("--cycles", 20, "-r", "Bug/Light")
+        (self.here / "out/trajectory.png").unlink()
+        with open(self.here / "out/trajectory.csv", "a") as file:
+            file.write("9,20,0,0,0\n")
+        self.assertIn("trials.csv has no trial 9", self.forage("plot", "out", status=2).stderr)
+        self.assertFalse(list((self.here / "out").glob("*.png")))
+
     def test_nothing_to_plot(self):
         self.assertIn("absent: error: there is no such file", self.forage("plot", "absent", status=2).stderr)
         (self.here / "empty").mkdir()

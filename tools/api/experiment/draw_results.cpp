@@ -232,18 +232,29 @@ std::vector<std::string> draw(Results& results, const std::vector<std::string>& 
     if (directory.empty() && !results.recordings.empty())
         directory = fs::path(results.path).parent_path().string();
     if (directory.empty()) directory = ".";
+    std::vector<std::pair<std::string, std::string>> pictures;  // file names and contents
     std::vector<std::string> written;
-    for (const auto& spec : specs) try {
-            const std::string picture = draw_one(spec, results, loaded, format, diagnostics);
-            if (picture.empty()) continue;
-            make_directory(directory);
-            write_file(directory + "/" + spec.file(format), picture);
-            written.push_back(directory == "." ? spec.file(format) : directory + "/" + spec.file(format));
+    const auto attempt = [&](const auto& action) {
+        try {
+            action();
         } catch (const FileError& e) {
             report(e, diagnostics);
         } catch (const std::exception& e) {
             diagnostics.error({}, e.what());
         }
+    };
+    for (const auto& spec : specs)
+        attempt([&] {
+            pictures.emplace_back(directory == "." ? spec.file(format) : directory + "/" + spec.file(format),
+                                  draw_one(spec, results, loaded, format, diagnostics));
+        });
+    if (diagnostics.failed()) return {};  // no picture beside a mistake
+    for (const auto& [file, picture] : pictures)
+        attempt([&, &file = file, &picture = picture] {
+            make_directory(directory);
+            write_file(file, picture);
+            written.push_back(file);
+        });
     return written;
 }
 
