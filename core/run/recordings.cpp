@@ -167,7 +167,7 @@ void Recordings::reopen(const File& f) const {
             partial(f.path + ".unpacked");  // a kill during the unpacking would leave an incomplete file
         observe::extract_npz(archive, f.header.sources.front().name, unpacked);
         fs::rename(unpacked, partial(f.path));
-    } else if (f.file.archive.empty() && fs::exists(f.path)) {
+    } else if (fs::exists(f.path)) {
         fs::rename(f.path, partial(f.path));
     } else {
         throw observe::ShortFile(fmt::format("the recording '{}' is not there", f.path));
@@ -212,7 +212,14 @@ void Recordings::finish(RunView& run, ResultFiles& files) {
     for (const auto& [name, arrays] : archives)
         attempt([&, &name = name, &arrays = arrays] {
             const std::string path = directory_ + "/" + name;
-            observe::join_npz(path, arrays);
+            try {
+                observe::join_npz(path, arrays);
+            } catch (const std::exception& e) {  // the disk may be full, and the arrays are complete
+                for (const auto& f : all_)
+                    if (f.file.archive == name) forage::finish(f.path);
+                throw std::runtime_error(fmt::format("{}; its arrays are in files of their own, such as '{}'",
+                                                     e.what(), arrays.front().first));
+            }
             for (const auto& [array, file] : arrays) std::remove(file.c_str());
         });
     if (empty.empty()) return;

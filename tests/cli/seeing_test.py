@@ -223,6 +223,13 @@ class Formats(Cli):
             self.assertIn("trials.csv", [p.name for p in (self.here / "full").iterdir()])
             if form == "npy":
                 self.assertGreater(len(numpy.load(self.here / "full" / name)), 3)
+        command = f"ulimit -f 300; trap '' XFSZ; exec {FORAGE} run {SYSTEM} --world {WORLD} --cycles 95 -o packed --format npz -r 'Bug/Place Cells' -r 'Bug/Head Direction Cells'"
+        done = subprocess.run(["bash", "-c", command], cwd=self.here, capture_output=True, text=True, timeout=600)
+        self.assertEqual(done.returncode, 1, done.stderr)
+        self.assertRegex(done.stderr, "error: cannot write '.*recording.npz': .*; its arrays are in files of their own, such as 'Bug/Place Cells:act'")
+        self.assertFalse(list((self.here / "packed").glob("*.part")) + list((self.here / "packed").glob("*.npz")))
+        for name in ("Bug_Place_Cells_act.npy", "Bug_Head_Direction_Cells_act.npy"):
+            self.assertEqual(len(numpy.load(self.here / "packed" / name)), 95)
 
 
 @unittest.skipUnless(numpy, "NumPy and h5py are absent")
