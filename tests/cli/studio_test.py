@@ -4,10 +4,14 @@ import os
 import math
 import pathlib
 import re
+import resource
 import shutil
+import socket
+import stat
 import subprocess
 import sys
 import tempfile
+import time
 import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / 'support'))
@@ -23,7 +27,6 @@ class Refusals(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.studio = Studio(forage, system, '--world', world)
-        cls.cookie = f'Cookie: forage_{cls.studio.port}={cls.studio.token}'
 
     @classmethod
     def tearDownClass(cls):
@@ -32,44 +35,134 @@ class Refusals(unittest.TestCase):
     def status(self, target, *headers, **more):
         return http(self.studio.port, target, headers, **more)[0]
 
-    def test_the_token_becomes_a_cookie(self):
-        status, head, _ = http(self.studio.port, f'/?token={self.studio.token}')
-        self.assertEqual(status, 303)
-        self.assertIn('HttpOnly; SameSite=Strict', head)
-        self.assertEqual(self.status('/', self.cookie), 200)
+    def test_the_page_is_public_and_sets_no_cookie(self):
+        for target in ('/', '/index.html', f'/?token={self.studio.token}'):
+            status, head, body = http(self.studio.port, target)
+            self.assertEqual(status, 200, target)
+            self.assertNotIn('cookie', head.lower())
+            self.assertNotIn(self.studio.token, head + body.decode('latin-1'))
 
     def test_nothing_without_the_token(self):
-        for target in ('/', '/index.html', '/picture?what=world', '/ws', '/?token=', '/?token=0'):
+        for token in ('', '0', '0' * 32, self.studio.token[:-1], self.studio.token + '0'):
+            with self.assertRaises(ConnectionError, msg=token):
+                Page(self.studio, token)
+        for target in ('/picture?what=world', '/picture?what=world&key=', '/picture?what=world&token=', '/picture?what=world&key=' + '0' * 32):
             self.assertEqual(self.status(target), 403, target)
-        self.assertEqual(self.status('/', f'Cookie: forage_{self.studio.port}=' + '0' * 32), 403)
-        self.assertEqual(self.status('/', f'Cookie: forage_{self.studio.port}={self.studio.token[:-1]}'), 403)
+        self.assertEqual(self.status('/ws'), 400)
+
+    def test_a_page_without_a_token_is_closed(self):
+        for first in (None, '{"command": "run"}', '[]', '{"token": 7}', 'x' * 5000):
+            page = Page.__new__(Page)
+            page.connect(self.studio.port)
+            with self.assertRaises(ConnectionError, msg=first):
+                if first:
+                    page.send(first)
+                    page.send('{"command": "run"}')
+                while page.receive(20):
+                    self.fail('it was answered')
+                self.fail('it stays open')
+            page.close()
+        page = Page(self.studio)
+        page.do('settings')
+        self.assertFalse(page.last('status')['running'])
+        page.close()
+
+    def test_many_idle_connections_do_not_stop_a_page(self):
+        idle = [socket.create_connection(('127.0.0.1', self.studio.port)) for _ in range(300)]
+        begun = time.monotonic()
+        page = Page(self.studio)
+        page.do('pause')
+        self.assertLess(time.monotonic() - begun, 4)
+        page.close()
+        for s in idle:  # the server has closed the oldest at once, and the others later
+            s.settimeout(60)
+            self.assertEqual(s.recv(1), b'')
+            s.close()
+
+    def test_without_a_free_file_it_waits(self):
+        with Studio(forage, system, '--world', world) as studio:
+            pid = studio.child.pid
+            spent = lambda: sum(map(int, pathlib.Path(f'/proc/{pid}/stat').read_text().split()[13:15])) / os.sysconf('SC_CLK_TCK')  # noqa: E731
+            files = len(os.listdir(f'/proc/{pid}/fd'))
+            resource.prlimit(pid, resource.RLIMIT_NOFILE, (files + 10, files + 10))
+            idle = [socket.create_connection(('127.0.0.1', studio.port)) for _ in range(40)]
+            before = spent()
+            time.sleep(2)
+            self.assertLess(spent() - before, 0.5)
+            page = Page(studio)
+            page.do('pause')
+            page.close()
+            for s in idle:
+                s.close()
 
     def test_foreign_hosts_and_origins(self):
         port = self.studio.port
-        self.assertEqual(self.status('/', self.cookie, host=f'localhost:{port}'), 200)
+        self.assertEqual(self.status('/', host=f'localhost:{port}'), 200)
         for host in ('evil.example', f'127.0.0.1.evil.example:{port}', f'evil.example:{port}', '127.0.0.1', f'127.0.0.1:{port + 1}'):
-            self.assertEqual(self.status('/', self.cookie, host=host), 403, host)
-        self.assertEqual(self.status('/', self.cookie, 'Host: evil.example'), 403)
+            self.assertEqual(self.status('/', host=host), 403, host)
+        self.assertEqual(self.status('/', 'Host: evil.example'), 403)
         upgrade = ('Upgrade: websocket', 'Connection: Upgrade', 'Sec-WebSocket-Version: 13', 'Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==')
         for origin in ('http://evil.example', f'http://127.0.0.1:{port}.evil.example', 'null', f'https://127.0.0.1:{port}', f'http://localhost:{port}'):
-            self.assertEqual(self.status('/ws', self.cookie, f'Origin: {origin}', *upgrade), 403, origin)
+            self.assertEqual(self.status('/ws', f'Origin: {origin}', *upgrade), 403, origin)
 
     def test_methods_paths_and_sizes(self):
-        self.assertEqual(self.status('/', self.cookie, method='POST'), 405)
+        self.assertEqual(self.status('/', method='POST'), 405)
         for target in ('/assets/', '/../etc/passwd', '/assets/../index.html', '/%2e%2e/', '/etc'):
-            self.assertEqual(self.status(target, self.cookie), 404, target)
-        self.assertIn(self.status('/' + 'a' * 20000, self.cookie), (0, 413))
+            self.assertEqual(self.status(target), 404, target)
+        self.assertIn(self.status('/' + 'a' * 20000), (0, 413))
 
     def test_headers(self):
-        _, head, _ = http(self.studio.port, '/', [self.cookie])
+        _, head, _ = http(self.studio.port, '/')
         self.assertIn("Content-Security-Policy: default-src 'self'", head)
         self.assertIn('X-Content-Type-Options: nosniff', head)
 
     def test_pictures(self):
-        status, _, body = http(self.studio.port, '/picture?what=world&format=png', [self.cookie])
+        page = Page(self.studio)
+        page.do('pause')
+        picture = page.last('world')['picture']
+        page.close()
+        self.assertNotIn(self.studio.token, picture)
+        status, _, body = http(self.studio.port, picture)
         self.assertEqual((status, body[:4]), (200, b'\x89PNG'))
-        self.assertEqual(self.status('/picture?what=diagram&format=svg', self.cookie), 200)
-        self.assertEqual(self.status('/picture?what=nothing&format=svg', self.cookie), 404)
+        self.assertEqual(self.status(f'/picture?what=diagram&format=svg&token={self.studio.token}'), 200)
+        self.assertEqual(self.status(f'/picture?what=nothing&format=svg&token={self.studio.token}'), 404)
+
+    def test_messages_that_nest_or_hold_too_much(self):
+        page = Page(self.studio)
+        for message, number in (
+            ('{"id":' + 100000 * '[' + 100000 * ']' + '}', None),
+            ('{"id": 5, "command": "set", "assignments":' + 3000 * '[' + 3000 * ']' + '}', 5),
+            ('{"id": 6, "command": "layout_write", "name": "x", "content": {"dock": [' + '[],' * 2500000 + '[]]}}', 6),
+            ('{"id": 7, "command": "sample", "x": ' + 100000 * '{"a":' + '1' + 100000 * '}' + '}', 7),
+            ('{"id": "x", "command": "history"}', None),
+            ('{"id": 1.5, "command": "history"}', None),
+            ('{"id": {"a": 1}, "command": "history"}', None),
+        ):
+            begun = time.monotonic()
+            page.send(message)
+            while number not in page.replies:
+                self.assertTrue(page.receive())
+            reply = page.replies.pop(number)
+            self.assertFalse(reply['ok'], message[:60])
+            self.assertLess(time.monotonic() - begun, 3)
+        page.do('history')
+        page.close()
+
+    def test_messages_do_not_pile_up_while_the_engine_is_busy(self):
+        page = Page(self.studio)
+        page.do('pause')
+        page.send('{"id": 1000000, "command": "step", "cycles": 200000}')
+        page.socket.settimeout(1)
+        size, sent = 1 << 20, 0
+        with self.assertRaises((TimeoutError, socket.timeout)):  # the socket is full: the server does not read
+            while sent < 200:
+                page.send('{"id": 3, "command": "history", "x": "' + size * 'x' + '"}')
+                sent += 1
+        self.assertLess(sent, 60)
+        page.close()
+        page = Page(self.studio)
+        page.do('history')
+        page.close()
 
     def test_messages_that_make_no_sense(self):
         page = Page(self.studio)
@@ -107,6 +200,43 @@ class Refusals(unittest.TestCase):
             while page.receive():
                 pass
         page.close()
+
+
+class Browser(unittest.TestCase):
+    """`--open` shows the page without an argument that others could use."""
+
+    def test_a_file_leads_to_the_page_once(self):
+        with tempfile.TemporaryDirectory() as folder:
+            opener = pathlib.Path(folder, 'bin/xdg-open')
+            opener.parent.mkdir()
+            opener.write_text(f'#!/bin/sh\nprintf %s "$*" > {folder}/arguments.part && mv {folder}/arguments.part {folder}/arguments\n')
+            opener.chmod(0o755)
+            os.makedirs(f'{folder}/state/forage', 0o755)  # as an earlier version has made it
+            path = os.environ['PATH']
+            os.environ['PATH'] = f'{opener.parent}:{path}'
+            try:
+                studio = Studio(forage, system, '--world', world, '--open', state=f'{folder}/state')
+            finally:
+                os.environ['PATH'] = path
+            arguments = pathlib.Path(folder, 'arguments')
+            wait_for(arguments.exists)
+            file = pathlib.Path(arguments.read_text())
+            self.assertEqual(stat.S_IMODE(file.stat().st_mode), 0o600)
+            for parent in pathlib.Path(folder, 'state/forage'), *pathlib.Path(folder, 'state/forage/studio').iterdir():
+                self.assertEqual(stat.S_IMODE(parent.stat().st_mode), 0o700, parent)
+            text = file.read_text()
+            self.assertNotIn(studio.token, text)
+            ticket = re.search(rf'url=http://127\.0\.0\.1:{studio.port}/\?token=([0-9a-f]{{32}})"', text)[1]
+            page = Page(studio, ticket)
+            self.assertEqual(page.token, studio.token)  # for a reload
+            page.do('pause')
+            page.close()
+            with self.assertRaises(ConnectionError):
+                Page(studio, ticket)
+            for _ in range(2):
+                Page(studio).close()
+            studio.__exit__()
+            self.assertFalse(file.exists())
 
 
 class Watching(unittest.TestCase):

@@ -1,4 +1,4 @@
-// Tries messages of pages to the studio, one per line, what is read of a request before the token is known,
+// Tries messages of pages to the studio, one per line, what is read before the token is known,
 // and the original's files of plots and panels. A message changes no file: commands that write are left out.
 #include <cstdint>
 #include <string_view>
@@ -57,7 +57,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         parse(std::string(text), diagnostics);
         test::sensible(diagnostics, std::string(text));
     }
-    query_value(text, "token"), cookie_value(text, "forage_1"), is_from_here(text, text, 1);
+    query_value(text, "token"), token_in(text), is_from_here(text, text, 1);
     while (!text.empty()) {
         const auto end = std::min(text.find('\n'), text.size());
         if (const auto message = text.substr(0, end); !left_out(message)) {

@@ -61,16 +61,26 @@ class Studio:
 
 
 class Page:
-    """A page: sends commands, and keeps messages and frames apart."""
+    """A page: sends commands, and keeps messages and frames apart. It begins with the studio's token, or with `token`."""
 
-    def __init__(self, studio):
-        self.socket = socket.create_connection(('127.0.0.1', studio.port), timeout=300)
+    def __init__(self, studio, token=None):
+        self.connect(studio.port)
+        self.send(json.dumps({'token': studio.token if token is None else token}))
+        try:
+            self.receive()
+        except ConnectionError:
+            self.close()
+            raise
+        self.token = self.messages.pop()['token']  # for a later connection
+
+    def connect(self, port):
+        """Opens the socket, without a token."""
+        self.socket = socket.create_connection(('127.0.0.1', port), timeout=300)
         key = base64.b64encode(os.urandom(16)).decode()
         self.socket.sendall(
             (
-                f'GET /ws HTTP/1.1\r\nHost: 127.0.0.1:{studio.port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n'
-                f'Cookie: forage_{studio.port}={studio.token}\r\nSec-WebSocket-Key: {key}\r\n'
-                'Sec-WebSocket-Version: 13\r\n\r\n'
+                f'GET /ws HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n'
+                f'Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n'
             ).encode()
         )
         self.buffer = b''

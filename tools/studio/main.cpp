@@ -3,13 +3,18 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <iterator>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <spawn.h>
+#include <unistd.h>
 
 #include "core/run/input_error.h"
 #include "tools/forage/installation.h"
 #include "tools/forage/options.h"
 #include "tools/forage/stop.h"
+#include "tools/studio/server/recovery.h"
 #include "tools/studio/server/studio.h"
 
 namespace {
@@ -17,7 +22,43 @@ namespace {
 using namespace forage;
 using namespace forage::tool;
 
-void print_address(const StudioCommand& command, const studio::Ready& ready) {
+/// Writes a file that only this user can read, and that leads a browser to an address. Returns its path;
+/// empty when there is no folder for it.
+std::string redirect_file(const std::string& address) try {
+    const std::string path = fmt::format("{}/open-{}.html", studio::state_folder(), getpid());
+    std::remove(path.c_str());
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+    const auto page = fmt::format(
+        "<!doctype html><meta charset=\"utf-8\"><title>Forage</title>"
+        "<meta http-equiv=\"refresh\" content=\"0; url={0}\"><a href=\"{0}\">Open the studio</a>\n",
+        address);
+    const bool written = file >= 0 && ::write(file, page.data(), page.size()) == std::ssize(page);
+    if (file >= 0) ::close(file);
+    return written ? path : "";
+} catch (const std::exception&) {
+    return "";
+}
+
+/// Opens a file with the user's browser. Everybody can read the arguments of programs, so no address is one.
+bool open_browser(std::string file) {
+    if (file.empty()) return false;
+    std::string program = "xdg-open";
+    char* const words[] = {program.data(), file.data(), nullptr};
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+        posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_WRONLY, 0);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // Ctrl-C is not for it
+    pid_t child = 0;
+    const int error = posix_spawnp(&child, words[0], &files, &attributes, words, environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&files);
+    return error == 0;
+}
+
+void print_address(const studio::Ready& ready) {
     fmt::print(stderr, "{}", format(ready.mistakes));
     if (ready.mistakes.failed())
         fmt::print(stderr, "note: the system runs when this is corrected, in the studio or in the file\n");
@@ -25,9 +66,6 @@ void print_address(const StudioCommand& command, const studio::Ready& ready) {
     fmt::print("The studio is at\n\n  {}\n\nOpen it with a browser on this machine; Ctrl-C ends it.\n",
                ready.address);
     std::fflush(stdout);
-    // The address holds no character that a shell reads.
-    if (command.open && std::system(("xdg-open '" + ready.address + "' >/dev/null 2>&1 &").c_str()) != 0)
-        fmt::print(stderr, "warning: no browser could be opened\n");
 }
 
 int serve(const StudioCommand& command) {
@@ -36,13 +74,20 @@ int serve(const StudioCommand& command) {
     options.plot_config = command.plot_config;
     options.recover = command.recover;
     options.running = command.running;
+    options.ticket = command.open;
     options.port = static_cast<std::uint16_t>(command.port);
     options.shipped = installation() / "share/forage/systems";
     note_signals("the studio");
+    std::string redirect;
+    const auto ready = [&](const studio::Ready& studio) {
+        print_address(studio);
+        if (!command.open) return;
+        redirect = redirect_file(studio.once);
+        if (!open_browser(redirect)) fmt::print(stderr, "warning: no browser could be opened\n");
+    };
     try {
-        studio::serve(
-            options, [&](const studio::Ready& ready) { print_address(command, ready); },
-            [] { return noted_signal() != 0; });
+        studio::serve(options, ready, [] { return noted_signal() != 0; });
+        std::remove(redirect.c_str());
     } catch (const InputError& e) {
         fmt::print(stderr, "{}", e.what());
         return bad_input;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/run/input_error.h"
@@ -13,15 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int deepest = 100;
-
-bool is_within(const json& value, int levels) {
-    if (!value.is_structured()) return true;
-    if (levels == 0) return false;
-    for (const auto& each : value)
-        if (!is_within(each, levels - 1)) return false;
-    return true;
-}
+constexpr std::size_t max_depth = 100;
 
 /// The mistake at a byte of a text, from 1.
 InputError mistake(const std::string& text, const std::string& name, std::size_t byte) {
@@ -39,15 +32,33 @@ InputError mistake(const std::string& text, const std::string& name, std::size_t
 
 }  // namespace
 
-void check_depth(const json& value) {
-    if (!is_within(value, deepest)) throw InputError("too many lists and objects within each other");
+JsonSize size_of_json(std::string_view text) {
+    JsonSize out;
+    std::size_t depth = 0;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (c == '[' || c == '{')
+            ++out.containers, out.depth = std::max(out.depth, ++depth);
+        else if (c == ']' || c == '}')
+            depth -= depth > 0 ? 1 : 0;
+        else if (c == ',')
+            ++out.commas;
+        else if (c == '"')
+            for (++i; i < text.size() && text[i] != '"'; ++i) i += text[i] == '\\' ? 1 : 0;
+    }
+    return out;
+}
+
+void check_depth(const JsonSize& size) {
+    if (size.depth > max_depth)
+        throw InputError("too many lists and objects within each other",
+                         fmt::format("at most {}", max_depth));
 }
 
 json parse_json(const std::string& text, const std::string& name) {
     try {
-        json out = json::parse(text);
-        check_depth(out);
-        return out;
+        check_depth(size_of_json(text));
+        return json::parse(text);
     } catch (const json::parse_error& e) {
         throw mistake(text, name, e.byte);
     } catch (const json::out_of_range&) {

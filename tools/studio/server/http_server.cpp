@@ -1,12 +1,15 @@
 #include "tools/studio/server/http_server.h"
 
 #include <deque>
+#include <functional>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>  // Boost 1.74 needs it in C++20
 
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/strand.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
@@ -22,17 +25,23 @@ namespace http = beast::http;
 namespace websocket = beast::websocket;
 using tcp = asio::ip::tcp;
 
-constexpr std::size_t most_header = 16u << 10;   ///< bytes of a request
-constexpr std::size_t most_message = 8u << 20;   ///< bytes of a message of a page
-constexpr std::size_t most_waiting = 16u << 20;  ///< bytes that wait for a page
-constexpr std::size_t most_pages = 64;
-constexpr auto patience = std::chrono::seconds(30);
+constexpr std::size_t max_header = 16u << 10;        ///< bytes of a request
+constexpr std::size_t max_message = 8u << 20;        ///< bytes of a message of a page
+constexpr std::size_t max_first_message = 1u << 10;  ///< bytes of the message with the token
+constexpr std::size_t max_unsent = 16u << 20;        ///< bytes that wait for a page
+constexpr std::size_t max_unhandled = 8u << 20;      ///< bytes of messages that wait for the engine
+constexpr std::size_t max_unhandled_messages = 256;
+constexpr std::size_t max_pages = 64, max_guests = 64;
+constexpr auto answer_time = std::chrono::seconds(30);         ///< for a response to be taken
+constexpr auto guest_time = std::chrono::seconds(5);           ///< for a request, or for the token of a page
+constexpr auto accept_pause = std::chrono::milliseconds(200);  ///< when no connection can be accepted
 
-/// Compares in a time that does not depend on where the difference is.
-bool same_secret(std::string_view a, std::string_view b) {
-    unsigned difference = a.size() == b.size() ? 0 : 1;
-    for (std::size_t i = 0; i < a.size(); ++i)
-        difference |= static_cast<unsigned>(a[i] ^ (b.empty() ? '\0' : b[i % b.size()]));
+/// Whether `given` is the secret, in a time that does not depend on where they differ. An empty secret admits
+/// no page.
+bool is_secret(std::string_view given, std::string_view secret) {
+    if (given.size() != secret.size() || secret.empty()) return false;
+    unsigned difference = 0;
+    for (std::size_t i = 0; i < given.size(); ++i) difference |= static_cast<unsigned>(given[i] ^ secret[i]);
     return difference == 0;
 }
 
@@ -45,23 +54,44 @@ struct HttpServer::Parts {
     explicit Parts(Options given)
         : options(std::move(given)),
           acceptor(io, {asio::ip::address_v4::loopback(), options.port}),
-          port(acceptor.local_endpoint().port()),
-          cookie(fmt::format("forage_{}", port)) {}
+          port(acceptor.local_endpoint().port()) {}
 
     void accept();
-    bool knows(const http::request<http::string_body>& request) const {
-        const auto target = std::string_view(request.target().data(), request.target().size());
-        const auto header = request[http::field::cookie];
-        return same_secret(cookie_value({header.data(), header.size()}, cookie), options.token) ||
-               same_secret(query_value(target, "token"), options.token);
+    /// Whether a page with this token may connect. A ticket is used up.
+    bool admits(const std::string& token) {
+        if (is_secret(token, options.token)) return true;
+        const bool has_ticket = is_secret(token, options.ticket);
+        if (has_ticket) options.ticket.clear();
+        return has_ticket;
+    }
+    bool may_see_pictures(std::string_view target) const {
+        return is_secret(query_value(target, "key"), options.picture_key) ||
+               is_secret(query_value(target, "token"), options.token);
+    }
+    /// Notes a connection that has shown no secret, and closes the oldest of too many.
+    std::uint64_t add_guest(std::function<void()> close) {
+        guests[++last_guest] = std::move(close);
+        if (guests.size() > max_guests) {
+            const auto close_oldest = std::move(guests.begin()->second);
+            guests.erase(guests.begin());
+            close_oldest();
+        }
+        return last_guest;
+    }
+    bool is_flooded() const {
+        return unhandled >= max_unhandled || unhandled_messages >= max_unhandled_messages;
     }
 
     Options options;
+    std::map<std::uint64_t, std::function<void()>> guests;  ///< before `io`, whose end destroys connections
+    std::uint64_t last_guest = 0;
     asio::io_context io{1};
     tcp::acceptor acceptor;
+    asio::steady_timer retry{io};
     std::uint16_t port;
-    std::string cookie;
     std::map<int, std::shared_ptr<Page>> pages;
+    std::set<int> unread;  ///< pages that are not read until messages are handled
+    std::size_t unhandled = 0, unhandled_messages = 0;
     int next_page = 1;
 };
 
@@ -69,40 +99,76 @@ struct HttpServer::Parts {
 class HttpServer::Parts::Page : public std::enable_shared_from_this<Page> {
   public:
     Page(Parts& server, tcp::socket socket) : server_(server), socket_(std::move(socket)) {}
+    ~Page() { server_.guests.erase(guest_); }
 
     void begin(const http::request<http::string_body>& request) {
+        guest_ = server_.add_guest([page = weak_from_this()] {
+            if (const auto self = page.lock()) self->end();
+        });
+        deadline_.expires_after(guest_time);
+        deadline_.async_wait([page = weak_from_this()](beast::error_code error) {
+            if (const auto self = page.lock(); self && !error && self->number_ == 0) self->end();
+        });
         socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
-        socket_.read_message_max(most_message);
+        socket_.read_message_max(max_first_message);
         socket_.auto_fragment(false);
         socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
-            if (error) return;
-            self->number_ = self->server_.next_page++;
-            self->server_.pages[self->number_] = self;
-            self->server_.options.opened(self->number_);
-            self->read();
+            if (!error) self->read_token();
         });
     }
     void send(bool binary, std::string data) {
         waiting_bytes_ += data.size();
-        if (waiting_bytes_ > most_waiting) return end();
+        if (waiting_bytes_ > max_unsent) return end();
         waiting_.emplace_back(binary, std::move(data));
         if (waiting_.size() == 1) write();
     }
     void end() {
+        server_.unread.erase(number_);
         if (server_.pages.erase(number_) > 0) server_.options.closed(number_);
         beast::error_code ignored;
         beast::get_lowest_layer(socket_).socket().close(ignored);
     }
-
-  private:
+    /// Reads the next message, unless too many wait for the engine.
     void read() {
+        if (server_.is_flooded()) return static_cast<void>(server_.unread.insert(number_));
         socket_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
             if (error || !self->socket_.got_text()) return self->end();
-            std::string text = beast::buffers_to_string(self->buffer_.data());
-            self->buffer_.consume(self->buffer_.size());
+            std::string text = self->take();
+            self->server_.unhandled += text.size(), ++self->server_.unhandled_messages;
             self->server_.options.received(self->number_, std::move(text));
             self->read();
         });
+    }
+
+  private:
+    std::string take() {
+        std::string text = beast::buffers_to_string(buffer_.data());
+        buffer_.clear();
+        buffer_.shrink_to_fit();
+        return text;
+    }
+    void read_token() {
+        socket_.async_read(buffer_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+            auto& server = self->server_;
+            if (error || !self->socket_.got_text()) return self->end();
+            if (!server.admits(token_in(self->take())))
+                return self->refuse("Open the address that 'forage studio' printed.");
+            if (server.pages.size() >= max_pages) return self->refuse("Too many pages are open.");
+            server.guests.erase(self->guest_);
+            self->deadline_.cancel();
+            self->socket_.read_message_max(max_message);
+            self->number_ = server.next_page++;
+            server.pages[self->number_] = self;
+            // A page that came with a ticket connects again with the token.
+            self->send(false, fmt::format(R"({{"type": "welcome", "token": "{}"}})", server.options.token));
+            server.options.opened(self->number_);
+            self->read();
+        });
+    }
+    /// Closes the socket with a reason that the page shows. The deadline holds for this, too.
+    void refuse(const char* why) {
+        socket_.async_close({websocket::close_code::policy_error, why},
+                            [self = shared_from_this()](beast::error_code) { self->end(); });
     }
     void write() {
         socket_.binary(waiting_.front().first);
@@ -120,19 +186,30 @@ class HttpServer::Parts::Page : public std::enable_shared_from_this<Page> {
     beast::flat_buffer buffer_;
     std::deque<std::pair<bool, std::string>> waiting_;
     std::size_t waiting_bytes_ = 0;
-    int number_ = 0;
+    asio::steady_timer deadline_{server_.io};  ///< for the token
+    std::uint64_t guest_ = 0;
+    int number_ = 0;  ///< 0 before the token
 };
 
 /// A connection that asks for files, until it becomes a page.
 class HttpServer::Parts::Connection : public std::enable_shared_from_this<Connection> {
   public:
     Connection(Parts& server, tcp::socket socket) : server_(server), stream_(std::move(socket)) {}
+    ~Connection() { server_.guests.erase(guest_); }
 
+    void begin() {
+        guest_ = server_.add_guest([connection = weak_from_this()] {
+            if (const auto self = connection.lock()) self->stream_.close();
+        });
+        read();
+    }
+
+  private:
     void read() {
         parser_.emplace();
-        parser_->header_limit(most_header);
+        parser_->header_limit(max_header);
         parser_->body_limit(0);
-        stream_.expires_after(patience);
+        stream_.expires_after(guest_time);
         http::async_read(
             stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
                 if (error == http::error::header_limit || error == http::error::body_limit)
@@ -142,8 +219,6 @@ class HttpServer::Parts::Connection : public std::enable_shared_from_this<Connec
                 self->handle();
             });
     }
-
-  private:
     void handle() {
         const auto view = [&](auto field) {
             const auto value = request_[field];
@@ -155,15 +230,17 @@ class HttpServer::Parts::Connection : public std::enable_shared_from_this<Connec
             !is_from_here(view(http::field::host), view(http::field::origin), server_.port))
             return refuse(403, "This address is for pages of this machine.");
         if (request_.method() != http::verb::get) return refuse(405, "Only GET is served.");
-        if (!server_.knows(request_)) return refuse(403, "Open the address that 'forage studio' printed.");
         if (path == "/ws") {
             if (!websocket::is_upgrade(request_)) return refuse(400, "This is a WebSocket.");
-            if (server_.pages.size() >= most_pages) return refuse(503, "Too many pages are open.");
             stream_.expires_never();
+            server_.guests.erase(guest_);
             return std::make_shared<Page>(server_, stream_.release_socket())->begin(request_);
         }
-        if (path == "/" && !query_value(target, "token").empty()) return welcome();
         if (path == "/picture") {
+            if (!server_.may_see_pictures(target))
+                return refuse(403, "The address of a picture has a key, which pages get.");
+            server_.guests.erase(guest_);
+            stream_.expires_never();
             const std::string format = query_value(target, "format");
             return server_.options.picture(query_value(target, "what"), format.empty() ? "png" : format,
                                            [self = shared_from_this()](Content content) {
@@ -179,14 +256,6 @@ class HttpServer::Parts::Connection : public std::enable_shared_from_this<Connec
     }
     void refuse(int status, const char* why) {
         answer({"text/plain; charset=utf-8", std::string(why) + "\n", false, status});
-    }
-    /// Sets the cookie, so that the token does not stay in the address.
-    void welcome() {
-        http::response<http::string_body> out{http::status::see_other, request_.version()};
-        out.set(http::field::location, "/");
-        out.set(http::field::set_cookie, fmt::format("{}={}; HttpOnly; SameSite=Strict; Path=/",
-                                                     server_.cookie, server_.options.token));
-        write(std::move(out));
     }
     void answer(Content content) {
         http::response<http::string_body> out{static_cast<http::status>(content.status), request_.version()};
@@ -206,7 +275,7 @@ class HttpServer::Parts::Connection : public std::enable_shared_from_this<Connec
         out.keep_alive(out.result_int() < 400 && request_.keep_alive());
         out.prepare_payload();
         response_ = std::move(out);
-        stream_.expires_after(patience);
+        stream_.expires_after(answer_time);
         http::async_write(stream_, response_,
                           [self = shared_from_this()](beast::error_code error, std::size_t) {
                               if (!error && self->response_.keep_alive()) return self->read();
@@ -217,10 +286,11 @@ class HttpServer::Parts::Connection : public std::enable_shared_from_this<Connec
 
     Parts& server_;
     beast::tcp_stream stream_;
-    beast::flat_buffer buffer_{most_header};
+    beast::flat_buffer buffer_{max_header};
     std::optional<http::request_parser<http::string_body>> parser_;
     http::request<http::string_body> request_;
     http::response<http::string_body> response_;
+    std::uint64_t guest_ = 0;
 };
 
 void HttpServer::Parts::accept() {
@@ -229,9 +299,14 @@ void HttpServer::Parts::accept() {
         if (!error) {
             beast::error_code ignored;
             socket.set_option(tcp::no_delay(true), ignored);
-            std::make_shared<Connection>(*this, std::move(socket))->read();
+            std::make_shared<Connection>(*this, std::move(socket))->begin();
+            return accept();
         }
-        accept();
+        // Such as too many open files: an attempt at once would fail again.
+        retry.expires_after(accept_pause);
+        retry.async_wait([this](beast::error_code stopped) {
+            if (!stopped) accept();
+        });
     });
 }
 
@@ -252,6 +327,14 @@ void HttpServer::send(int client, bool binary, std::string data) {
             const auto page = it->second;  // a page that ends leaves the map
             page->send(binary, std::move(data));
         }
+    });
+}
+
+void HttpServer::handled(std::size_t bytes) {
+    asio::post(parts_->io, [parts = parts_.get(), bytes] {
+        parts->unhandled -= bytes, --parts->unhandled_messages;
+        if (parts->is_flooded()) return;
+        for (const int page : std::exchange(parts->unread, {})) parts->pages.at(page)->read();
     });
 }
 

@@ -17,17 +17,20 @@ struct Content {
     int status = 200;
 };
 
-/// Checks every request as docs/design/studio-protocol.md says: the host, the origin, the token, the sizes.
+/// Checks every request as docs/design/studio-protocol.md says: the host, the origin, the secrets, the sizes.
 class HttpServer {
   public:
     struct Options {
-        std::uint16_t port = 0;  ///< 0: a free one
-        std::string token;
+        std::uint16_t port = 0;   ///< 0: a free one
+        std::string token;        ///< lets pages connect
+        std::string ticket;       ///< lets one page connect once; may be empty
+        std::string picture_key;  ///< part of the addresses of pictures
         /// The file for a path such as "/assets/app.js"; empty when there is none.
         std::function<std::optional<Content>(const std::string& path)> file;
         /// Makes a picture, and calls `done` with it, from any thread.
         std::function<void(std::string what, std::string format, std::function<void(Content)> done)> picture;
         std::function<void(int client)> opened, closed;  ///< a page has connected, or is gone
+        /// A message of a page; handled() must follow. While many wait, pages are not read.
         std::function<void(int client, std::string text)> received;
     };
     /// Listens. Throws std::runtime_error when the port is taken.
@@ -41,20 +44,26 @@ class HttpServer {
     /// Sends a message to a page; may be called by any thread. A page that does not read is disconnected when
     /// too much waits for it.
     void send(int client, bool binary, std::string data);
+    /// A message of so many bytes has been dealt with. May be called by any thread.
+    void handled(std::size_t bytes);
 
   private:
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };
 
-/// A random token of 32 hexadecimal digits.
+/// The reply to a message that is refused before it is parsed, as it nests too deeply or holds too much;
+/// empty for other messages.
+std::optional<std::string> refusal_of(std::string_view message);
+/// A random secret of 32 hexadecimal digits.
 std::string make_token();
+/// The token in the first message of a page, `{"token": "..."}`; empty when it is another message.
+std::string token_in(std::string_view message);
 /// Whether a request with this Host and Origin (empty: none) may come from a page of this server, or from a
 /// program that is no browser.
 bool is_from_here(std::string_view host, std::string_view origin, std::uint16_t port);
-/// The value of `name` in the query of a target such as "/?token=T&x=y", decoded; empty without one.
+/// The value of `name` in the query of a target such as "/picture?what=world&key=K", decoded; empty without
+/// one.
 std::string query_value(std::string_view target, std::string_view name);
-/// The value of a cookie in a header; empty without one.
-std::string cookie_value(std::string_view header, std::string_view name);
 
 }  // namespace forage::studio

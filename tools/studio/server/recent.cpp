@@ -33,11 +33,11 @@ std::vector<std::string> recent_files() {
 void note_recent(const std::string& file) {
     try {
         const std::string whole = fs::weakly_canonical(fs::absolute(file)).string();
+        if (whole.find('\n') != whole.npos) return;  // a line of the list is a path
         std::string text = whole + "\n";
         for (const auto& other : recent_files())
             if (other != whole) text += other + "\n";
-        make_directory(fs::path(list_path()).parent_path().string());
-        write_file(list_path(), text);
+        write_file(state_folder() + "/recent", text);
     } catch (const std::exception&) {  // the list is a convenience
     }
 }

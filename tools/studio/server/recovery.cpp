@@ -1,10 +1,13 @@
 #include "tools/studio/server/recovery.h"
 
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include "core/run/checkpoint_file.h"
 
@@ -27,13 +30,27 @@ std::string state_home() {
     throw std::runtime_error("neither XDG_STATE_HOME nor HOME names a folder");
 }
 
+std::string state_folder(const std::string& inside) {
+    const fs::path home = state_home();
+    make_directory(home.string());
+    fs::path out = home;
+    for (const auto& part : inside.empty() ? fs::path("forage") : fs::path("forage") / inside) {
+        out /= part;
+        // A folder that an earlier version has made is closed to others, too.
+        if (mkdir(out.c_str(), 0700) != 0 && (errno != EEXIST || chmod(out.c_str(), 0700) != 0))
+            throw std::runtime_error(
+                fmt::format("cannot make the directory '{}': {}", out.string(), std::strerror(errno)));
+    }
+    make_directory(out.string());
+    return out.string();
+}
+
 RecoveryFiles::RecoveryFiles(const std::string& system) {
     const std::string whole = fs::weakly_canonical(system).string();
-    const std::string name = fmt::format("{}/forage/studio/{}-{}", state_home(),
-                                         file_name(fs::path(whole).stem().string()), digest(whole));
+    const std::string name =
+        fmt::format("studio/{}-{}", file_name(fs::path(whole).stem().string()), digest(whole));
     for (int i = 1;; ++i) {
-        folder_ = i == 1 ? name : fmt::format("{}-{}", name, i);
-        make_directory(folder_);
+        folder_ = state_folder(i == 1 ? name : fmt::format("{}-{}", name, i));
         try {
             hold_ = DirectoryHold(folder_);
             break;

@@ -16,6 +16,10 @@ namespace forage::studio {
 /// The user's folder of states: $XDG_STATE_HOME, or ~/.local/state. Throws std::runtime_error without a home.
 std::string state_home();
 
+/// Creates a folder of Forage in the user's folder of states, which only the user can read, and returns its
+/// path. Throws std::runtime_error.
+std::string state_folder(const std::string& inside = {});
+
 /// The folder of a system in the user's folder of states ($XDG_STATE_HOME, or ~/.local/state), with the file
 /// of the session that runs and that of one which was killed. Studios of one system have a folder each.
 class RecoveryFiles {

@@ -1,12 +1,41 @@
 // What a request may be: checks without sockets.
+#include <algorithm>
+#include <optional>
 #include <random>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include "core/base/number.h"
+#include "core/run/input_error.h"
+#include "tools/api/edit/json_text.h"
 #include "tools/studio/server/http_server.h"
+#include "tools/studio/server/pages.h"
+#include "tools/studio/server/problems.h"
 
 namespace forage::studio {
 namespace {
+
+constexpr std::size_t max_containers = 200'000, max_values = 1'000'000;  ///< in a message
+
+/// The member `id` of a message that is not parsed; null when it is no whole number.
+json id_in(std::string_view message) {
+    constexpr std::string_view blanks = " \t\r\n";
+    int depth = 0;
+    for (std::size_t i = 0; i < message.size(); ++i) {
+        depth += message[i] == '[' || message[i] == '{' ? 1 : message[i] == ']' || message[i] == '}' ? -1 : 0;
+        if (message[i] != '"') continue;
+        const auto begin = i++;
+        for (; i < message.size() && message[i] != '"'; ++i) i += message[i] == '\\' ? 1 : 0;
+        if (depth != 1 || message.substr(begin, i - begin) != "\"id") continue;
+        auto value = message.substr(std::min(message.find_first_not_of(blanks, i + 1), message.size()));
+        if (!value.starts_with(':')) continue;
+        value.remove_prefix(std::min(value.find_first_not_of(blanks, 1), value.size()));
+        const auto number = parse_number<std::int64_t>(value.substr(0, value.find_first_of(",} \t\r\n")));
+        return number ? json(*number) : json(nullptr);
+    }
+    return nullptr;
+}
 
 int digit(char c) {
     if (c >= '0' && c <= '9') return c - '0';
@@ -32,6 +61,23 @@ std::string decoded(std::string_view text) {
 }
 
 }  // namespace
+
+std::optional<std::string> refusal_of(std::string_view message) {
+    try {
+        const auto size = size_of_json(message);
+        check_depth(size);
+        if (size.containers > max_containers || size.containers + size.commas > max_values)
+            throw InputError(
+                "there is too much in this message",
+                fmt::format("at most {} lists and objects, and {} values", max_containers, max_values));
+        return std::nullopt;
+    } catch (const InputError& e) {
+        return Pages::text({{"type", "reply"},
+                            {"id", id_in(message)},
+                            {"ok", false},
+                            {"problems", problems_of(e.diagnostics())}});
+    }
+}
 
 std::string make_token() {
     std::random_device device;
@@ -62,16 +108,10 @@ std::string query_value(std::string_view target, std::string_view name) {
     return {};
 }
 
-std::string cookie_value(std::string_view header, std::string_view name) {
-    while (!header.empty()) {
-        while (header.starts_with(' ')) header.remove_prefix(1);
-        const auto end = std::min(header.find(';'), header.size());
-        const std::string_view pair = header.substr(0, end);
-        if (pair.size() > name.size() && pair.starts_with(name) && pair[name.size()] == '=')
-            return std::string(pair.substr(name.size() + 1));
-        header.remove_prefix(std::min(end + 1, header.size()));
-    }
-    return {};
+std::string token_in(std::string_view message) {
+    const auto parsed = nlohmann::json::parse(message, nullptr, false);
+    const auto found = parsed.is_object() ? parsed.find("token") : parsed.end();
+    return found != parsed.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
 }  // namespace forage::studio

@@ -13,11 +13,11 @@
 #include "core/base/text_file.h"
 #include "core/model/refused.h"
 #include "tools/api/describe/describe_json.h"
-#include "tools/api/edit/json_text.h"
 #include "tools/api/open/sources.h"
 #include "tools/plot/world_map.h"
 #include "tools/studio/server/commands.h"
 #include "tools/studio/server/commands/command.h"
+#include "tools/studio/server/http_server.h"
 #include "tools/studio/server/plot_layout.h"
 #include "tools/studio/server/problems.h"
 
@@ -154,8 +154,8 @@ json Session::world_message() {
     const auto* world = dynamic_cast<const bug::World*>(live.run->environment());
     if (!world) return {{"type", "world"}, {"file", nullptr}};
     json out = describe_world(*world);
-    out["picture"] =
-        fmt::format("/picture?what=world&format=png&epoch={}&of={}", live.epoch, edited.generation);
+    out["picture"] = fmt::format("/picture?what=world&format=png&epoch={}&of={}&key={}", live.epoch,
+                                 edited.generation, picture_key);
     return out;
 }
 
@@ -211,25 +211,22 @@ json Session::status() const {
 
 void Session::message(int client, std::string_view text) {
     const double begun = clock_now();
+    if (auto refused = refusal_of(text)) return pages.send(client, false, std::move(*refused));
     json reply;
     json id = nullptr;
-    try {
-        const json command = json::parse(text, nullptr, false);
-        if (!command.is_object()) {
-            reply = {{"ok", false}, {"problems", problem("a message is one JSON object")}};
-        } else {
-            id = command.value("id", json());
-            check_depth(command);
-            reply = execute(client, command);
-            if (command.value("command", json()) == "ack" && reply["ok"] == true) {
-                live.pace.pages_time += clock_now() - begun;
-                return;
-            }
+    const json command = json::parse(text, nullptr, false);
+    if (!command.is_object()) {
+        reply = {{"ok", false}, {"problems", problem("a message is one JSON object")}};
+    } else if (const auto given = command.find("id");
+               given != command.end() && !given->is_null() && !given->is_number_integer()) {
+        reply = {{"ok", false}, {"problems", problem("'id' is not a whole number")}};
+    } else {
+        if (given != command.end()) id = *given;
+        reply = execute(client, command);
+        if (command.value("command", json()) == "ack" && reply["ok"] == true) {
+            live.pace.pages_time += clock_now() - begun;
+            return;
         }
-    } catch (const InputError& e) {
-        reply = {{"ok", false}, {"problems", problems_of(e.diagnostics())}};
-    } catch (const json::exception& e) {
-        reply = {{"ok", false}, {"problems", problem(e.what())}};
     }
     reply["type"] = "reply", reply["id"] = std::move(id);
     pages.send(client, false, Pages::text(reply));

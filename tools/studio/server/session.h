@@ -85,6 +85,8 @@ class Session {
 
     /// Ends the program for a page that asks for it; empty when it cannot.
     std::function<void()> quit;
+    /// The key in the addresses of pictures, which pages get.
+    std::string picture_key;
 
     Run& run() { return *live.run; }
     const RunInput& input() const { return edited.input; }

@@ -1,7 +1,6 @@
 #include "tools/studio/server/settings.h"
 
 #include <exception>
-#include <filesystem>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -35,9 +34,8 @@ void write_settings(const Settings& settings) {
     if (!in_range(settings.save_interval))
         throw InputError(fmt::format("a session cannot be saved every {} s", settings.save_interval),
                          fmt::format("from {} to {} s", shortest, longest));
-    const std::string path = settings_path();
-    make_directory(std::filesystem::path(path).parent_path().string());
-    write_file(path, nlohmann::json{{"save_interval", settings.save_interval}}.dump() + "\n");
+    write_file(state_folder() + "/settings.json",
+               nlohmann::json{{"save_interval", settings.save_interval}}.dump() + "\n");
 }
 
 }  // namespace forage::studio

@@ -49,12 +49,21 @@ void serve(const StudioOptions& options, const std::function<void(const Ready&)>
     std::unique_ptr<EngineThread> engine;
     HttpServer::Options wanted;
     wanted.port = options.port;
-    wanted.token = options.token.empty() ? make_token() : options.token;
+    wanted.token = make_token(), wanted.picture_key = make_token();
+    if (options.ticket) wanted.ticket = make_token();
+    session.picture_key = wanted.picture_key;
     wanted.file = find_asset;
     wanted.opened = [&](int client) { engine->post([client](Session& s) { s.connect(client); }); };
     wanted.closed = [&](int client) { engine->post([client](Session& s) { s.disconnect(client); }); };
     wanted.received = [&](int client, std::string text) {
-        engine->post([client, text = std::move(text)](Session& s) { s.message(client, text); });
+        if (const auto refused = refusal_of(text)) {
+            server->send(client, false, *refused);
+            return server->handled(text.size());
+        }
+        engine->post([&server, client, text = std::move(text)](Session& s) {
+            s.message(client, text);
+            server->handled(text.size());
+        });
     };
     wanted.picture = [&](std::string what, std::string format, const std::function<void(Content)>& done) {
         engine->post([what, format, done](Session& s) {
@@ -68,11 +77,14 @@ void serve(const StudioOptions& options, const std::function<void(const Ready&)>
             }
         });
     };
-    const std::string token = wanted.token;
+    const std::string token = wanted.token, ticket = wanted.ticket;
     server = std::make_unique<HttpServer>(std::move(wanted));
     engine = std::make_unique<EngineThread>(session);
     std::thread network([&] { server->run(); });
-    ready({fmt::format("http://127.0.0.1:{}/?token={}", server->port(), token), note, mistakes});
+    const auto address = [&](const std::string& secret) {
+        return fmt::format("http://127.0.0.1:{}/?token={}", server->port(), secret);
+    };
+    ready({address(token), ticket.empty() ? "" : address(ticket), note, mistakes});
     while (!interrupted() && !quits) std::this_thread::sleep_for(std::chrono::milliseconds(100));
     server->stop();
     network.join();

@@ -16,13 +16,14 @@ struct StudioOptions {
     std::string plot_config;  ///< a layout that pages begin with (.layout.json); may be empty
     bool recover = false;     ///< whether to continue the session that was killed
     bool running = false;     ///< whether the run begins at once
-    std::string token;        ///< empty: a random one
+    bool ticket = false;      ///< whether the studio also has an address that opens one page once
     std::string shipped;      ///< the folder of the systems that come with Forage; may be empty
 };
 
 /// A studio whose pages can be opened.
 struct Ready {
     std::string address;
+    std::string once;      ///< an address that opens one page; may be empty
     std::string note;      ///< a session that was killed, or why nothing is kept of this one; may be empty
     Diagnostics mistakes;  ///< those of a system that must be corrected before it runs; else empty
 };

@@ -3,14 +3,13 @@ import { resolve } from 'node:path';
 import { defineConfig } from 'vite';
 import { tutorial } from './tutorial/plugin';
 
-// `FORAGE_STUDIO_URL='http://127.0.0.1:PORT/?token=T' npm run dev` shows the page of these sources on a running `forage studio`.
+// `FORAGE_STUDIO_URL=http://127.0.0.1:PORT npm run dev` shows the page of these sources on a running `forage studio`, at the address of Vite with `?token=T`.
 const server = process.env.FORAGE_STUDIO_URL ? new URL(process.env.FORAGE_STUDIO_URL) : null;
 const forward = server && {
   target: server.origin,
   ws: true,
   changeOrigin: true,
   headers: { origin: server.origin },
-  rewrite: (path: string) => `${path}${path.includes('?') ? '&' : '?'}${server.searchParams}`,
 };
 
 // The text of the tutorial lives in docs/tutorial; the build of the program works on a copy of this folder, and names it.

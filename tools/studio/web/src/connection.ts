@@ -12,7 +12,18 @@ interface ConnectionEvents {
   /** Frames that arrived since the last animation frame, oldest first. */
   frames(frames: Frame[]): void;
   fault(text: string): void;
+  /** The server does not let the page in, and says why. */
+  refused(why: string): void;
 }
+
+/** The secret of a page, which the server exchanges for one that stays valid. */
+interface Token {
+  get(): string | null;
+  set(token: string): void;
+}
+
+/** The code of a socket that the server closes when the token is wrong. */
+const policyViolation = 1008;
 
 /** A command that the server refused. */
 export class CommandError extends Error {
@@ -45,6 +56,7 @@ export class Connection {
 
   constructor(
     private readonly url: string,
+    private readonly token: Token,
     private readonly events: ConnectionEvents,
     private readonly schedule: (draw: () => void) => void = (draw) => requestAnimationFrame(draw),
   ) {}
@@ -54,12 +66,15 @@ export class Connection {
     const socket = new WebSocket(this.url);
     socket.binaryType = 'arraybuffer';
     this.socket = socket;
-    socket.onopen = () => {
-      this.attempts = 0;
-      this.events.link('open');
-    };
+    socket.onopen = () => socket.send(JSON.stringify({ token: this.token.get() }));
     socket.onmessage = (event) => this.receive(event.data as string | ArrayBuffer);
-    socket.onclose = () => this.lost();
+    socket.onclose = (event) => {
+      if (event.code === policyViolation) {
+        this.closed = true;
+        this.events.refused(event.reason);
+      }
+      this.lost();
+    };
   }
 
   close(): void {
@@ -79,8 +94,8 @@ export class Connection {
     for (const w of this.waiting.values()) w.reject(new CommandError([{ message: 'the connection was lost' }]));
     this.waiting.clear();
     this.arrived = [];
-    if (this.closed) return;
     this.events.link('lost');
+    if (this.closed) return;
     const delay = Math.min(5000, 250 * 2 ** this.attempts++);
     setTimeout(() => this.closed || this.open(), delay);
   }
@@ -88,6 +103,11 @@ export class Connection {
   private receive(data: string | ArrayBuffer): void {
     if (typeof data !== 'string') return this.keep(data);
     const message = JSON.parse(data) as ServerMessage;
+    if (message.type === 'welcome') {
+      this.attempts = 0;
+      this.token.set(message.token);
+      return this.events.link('open');
+    }
     if (message.type !== 'reply') return this.events.message(message);
     const waiting = this.waiting.get(message.id);
     this.waiting.delete(message.id);

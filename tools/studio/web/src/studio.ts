@@ -15,15 +15,22 @@ import { Streams } from './streams';
 
 const socketUrl = `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`;
 
+/** The secret of this page. It outlives a reload, and nothing else than this address in this tab has it. */
+const token = {
+  get: () => sessionStorage.getItem('forage-token'),
+  set: (secret: string) => sessionStorage.setItem('forage-token', secret),
+};
+
 // Whether the connection was lost since the last message of the system.
 let lost = false;
-const connection = new Connection(socketUrl, {
+const connection = new Connection(socketUrl, token, {
   link(state) {
     run.link = state;
     if (state !== 'open') lost = true;
   },
   message: receive,
   frames: draw,
+  refused: (why) => (run.refused = why),
   fault: (text) => actions.notify('error', `A frame of the server could not be read: ${text}`),
 });
 
@@ -153,4 +160,12 @@ function draw(frames: Frame[]): void {
   since = now;
 }
 
-export const start = () => connection.open();
+/** Connects with the token of the address, which does not stay there. */
+export function start(): void {
+  const given = new URLSearchParams(location.search).get('token');
+  if (given) {
+    token.set(given);
+    history.replaceState(null, '', location.pathname);
+  }
+  connection.open();
+}

@@ -272,7 +272,7 @@ TEST_CASE("a robot and an object are moved to free places only") {
     CHECK(f.session.generation() == before);
 }
 
-TEST_CASE("requests come from here, with the token") {
+TEST_CASE("requests come from here, and pages begin with the token") {
     CHECK(is_from_here("127.0.0.1:80", "", 80));
     CHECK(is_from_here("localhost:80", "http://localhost:80", 80));
     for (const char* host :
@@ -284,8 +284,9 @@ TEST_CASE("requests come from here, with the token") {
     CHECK(query_value("/?a=1&token=x%20y", "token") == "x y");
     CHECK(query_value("/?tokens=1", "token").empty());
     CHECK(query_value("/?token", "token").empty());
-    CHECK(cookie_value("a=1; forage_80=t", "forage_80") == "t");
-    CHECK(cookie_value("xforage_80=t", "forage_80").empty());
+    CHECK(token_in(R"({"token": "t"})") == "t");
+    for (const char* other : {"", "{", "[]", "7", R"({"token": 7})", R"({"command": "run"})"})
+        CHECK(token_in(other).empty());
 }
 
 TEST_CASE("panels and sets of parameters are written and read back, in the form of the original") {

@@ -153,6 +153,9 @@ export interface StatusMessage {
 }
 
 /** `layout` is that of --plot-config, `panels` the arrangement that a page had last. */
+/** The first message: the token with which this page connects again. */
+export type WelcomeMessage = { type: 'welcome'; token: string };
+
 export type HelloMessage = { type: 'hello'; protocol: number; version: string; capabilities: string[]; layout?: LayoutContent | null; panels?: LayoutContent | null };
 
 /** A layout file: the panels' arrangement, or the plots of a file of the original, with what could not be read of it. */
@@ -176,7 +179,7 @@ export type Problem = { severity?: string; file?: string; line?: number; column?
 
 export type ReplyMessage = { type: 'reply'; id: number; ok: boolean; conflict?: boolean; reason?: string; result?: unknown; problems?: Problem[] };
 
-export type ServerMessage = HelloMessage | SystemMessage | WorldMessage | NoWorldMessage | StatusMessage | ActionMessage | DocumentMessage | WorldDocument | ReplyMessage;
+export type ServerMessage = WelcomeMessage | HelloMessage | SystemMessage | WorldMessage | NoWorldMessage | StatusMessage | ActionMessage | DocumentMessage | WorldDocument | ReplyMessage;
 
 export type ParameterValue = boolean | number | string;
 export type ParameterKind = 'boolean' | 'real' | 'integer' | 'text';

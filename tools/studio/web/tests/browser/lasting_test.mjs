@@ -27,7 +27,7 @@ export default async function({ folder, start, open, step }) {
   first.child.removeAllListeners('exit');
   first.child.kill('SIGKILL');
 
-  step('the page of the one that was killed says so, and how to continue, until it reaches the next one');
+  step('the page of the one that was killed says so, and how to continue');
   const gone = page.getByRole('alert').filter({ hasText: 'Forage has ended or cannot be reached' });
   await gone.getByText('forage studio systems/dac_foraging.iqr --world systems/worlds/basic_arena.world --recover', { exact: true }).waitFor();
 
@@ -41,8 +41,16 @@ export default async function({ folder, start, open, step }) {
   await again.getByRole('button', { name: 'End comparison' }).waitFor();
   await again.locator('[aria-label^="Space plot of"] canvas.reference').first().waitFor();
   assert.equal(await again.getByText("This system's last session was not closed.").count(), 0);
+
+  step('the page of the first one has no token of the second one, and says what to do');
+  await page.getByText("Open the address that 'forage studio' printed.").waitFor();
   await gone.waitFor({ state: 'detached' });
+  await page.goto(await second.address);
   await until(page, 'cycle 7 in the page of the first one', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '7');
+  await page.reload();
+  await until(page, 'cycle 7 after a reload', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '7');
+  assert.equal(new URL(page.url()).search, '');
+  assert.deepEqual(await page.context().cookies(), []);
 
   step('a backup is opened from under its file, and does not replace it without a question');
   const file = join(folder, 'systems/dac_foraging.iqr'), content = readFileSync(file, 'utf8');

@@ -70,7 +70,7 @@ export async function accessible(page, what) {
 export const answered = (page) =>
   page.evaluate(() =>
     new Promise((done) => {
-      const id = 1e9 + Math.random();
+      const id = 1e9 + Math.floor(1e9 * Math.random());
       const listen = ({ data }) => {
         if (typeof data !== 'string' || JSON.parse(data).id !== id) return;
         window.socket.removeEventListener('message', listen);
@@ -137,7 +137,7 @@ export async function inBrowser(browser, forage, sources, test) {
   const context = await browser.newContext({ viewport: { width: 1400, height: 900 }, colorScheme: 'light' });
   context.setDefaultTimeout(patience);
   await context.addInitScript(watchSocket);
-  const studios = [], faults = [];
+  const studios = [], faults = [], addresses = new Map();
   context.on('page', (page) => {
     page.on('pageerror', (e) => faults.push(e.message));
     page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
@@ -146,12 +146,14 @@ export async function inBrowser(browser, forage, sources, test) {
     studios.push(startStudio(forage, folder, args));
     return studios[studios.length - 1];
   };
-  /** A page that shows the address; `size` is that of its window. */
+  /** A page that shows the address, or the last studio of this origin; `size` is that of its window. */
   const open = async (address, size) => {
+    const { origin, search } = new URL(address);
+    if (search) addresses.set(origin, address);
     const page = await context.newPage();
     lookOften(page.locator('body'));
     if (size) await page.setViewportSize(size);
-    await page.goto(address);
+    await page.goto(addresses.get(origin));
     return page;
   };
   try {

@@ -8,7 +8,7 @@ class FakeSocket {
   readyState = 0;
   sent: Record<string, unknown>[] = [];
   onopen = () => {};
-  onclose = () => {};
+  onclose = (_: { code: number; reason: string }) => {};
   onmessage = (_: { data: unknown }) => {};
   constructor() {
     FakeSocket.made.push(this);
@@ -19,10 +19,11 @@ class FakeSocket {
   open() {
     this.readyState = 1;
     this.onopen();
+    this.onmessage({ data: JSON.stringify({ type: 'welcome', token: 'lasting' }) });
   }
-  close() {
+  close(code = 1006, reason = '') {
     this.readyState = 3;
-    this.onclose();
+    this.onclose({ code, reason });
   }
 }
 
@@ -30,12 +31,15 @@ const data = (sequence: number) => makeFrame({ sequence, epoch: 1, cycle: sequen
 
 function connected() {
   const draws: (() => void)[] = [];
-  const events = { link: vi.fn(), message: vi.fn(), frames: vi.fn(), fault: vi.fn() };
-  const connection = new Connection('ws://x/ws', events, (draw) => void draws.push(draw));
+  const events = { link: vi.fn(), message: vi.fn(), frames: vi.fn(), fault: vi.fn(), refused: vi.fn() };
+  let secret = 'once';
+  const token = { get: () => secret, set: (other: string) => void (secret = other) };
+  const connection = new Connection('ws://x/ws', token, events, (draw) => void draws.push(draw));
   connection.open();
   const socket = FakeSocket.made[0]!;
   socket.open();
-  return { connection, events, socket, draws };
+  const greeting = socket.sent.splice(0);
+  return { connection, events, socket, draws, greeting, token };
 }
 
 beforeEach(() => {
@@ -49,6 +53,24 @@ afterEach(() => {
 });
 
 describe('Connection', () => {
+  it('sends its token first, and connects again with the one that it got', () => {
+    const { events, socket, greeting } = connected();
+    expect(greeting).toEqual([{ token: 'once' }]);
+    expect(events.message).not.toHaveBeenCalled();
+    socket.close();
+    vi.advanceTimersByTime(250);
+    FakeSocket.made[1]!.open();
+    expect(FakeSocket.made[1]!.sent).toEqual([{ token: 'lasting' }]);
+  });
+
+  it('says why it is not let in, and does not try again', () => {
+    const { events, socket } = connected();
+    socket.close(1008, 'Open the address.');
+    expect(events.refused).toHaveBeenCalledWith('Open the address.');
+    vi.advanceTimersByTime(10000);
+    expect(FakeSocket.made).toEqual([socket]);
+  });
+
   it('acknowledges only after drawing, all frames at once', () => {
     const { events, socket, draws } = connected();
     socket.onmessage({ data: data(1) });
