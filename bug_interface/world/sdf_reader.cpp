@@ -65,6 +65,10 @@ class Reader {
     }
 
     Content read_model_file(const std::string& file, const xml::Element& include) {
+        if (std::error_code ignored; fs::exists(file, ignored) && !fs::is_regular_file(file, ignored)) {
+            diagnostics_.error(include.where(), fmt::format("'{}' is a pipe or a device, not a file", file));
+            return {};
+        }
         const xml::Element root = in_.open(file);
         if (!root) return {};
         if (const auto inside = root.children(); inside.size() > 1)

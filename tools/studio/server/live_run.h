@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -25,6 +26,14 @@ struct Change {
     nlohmann::json loaded;  ///< the value of the file
 };
 using Changes = std::map<std::string, Change>;  ///< by the name of the parameter
+
+/// How a page wants to record.
+struct SamplerRequest {
+    std::string file, mode;
+    std::vector<std::string> sources;
+    std::uint64_t every = 1;
+    std::optional<std::uint64_t> cycles;
+};
 
 /// A recording of a page.
 struct Sampler {
@@ -58,8 +67,8 @@ struct LiveRun {
     std::uint64_t version = 0;
     std::optional<std::size_t> pause_after_trials;  ///< the number of finished trials of the first robot
     std::optional<Sampler> sampler;
-    nlohmann::json waiting_sampler;  ///< the arguments of a sampler that begins with the run; null for none
-    bool sampled = false;            ///< whether it has begun in this run
+    std::optional<SamplerRequest> waiting_sampler;  ///< that begins with the run
+    bool sampled = false;                           ///< whether it has begun in this run
 };
 
 }  // namespace forage::studio

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/diagnostic.h"
+#include "tools/studio/server/page_paths.h"
 
 namespace forage::studio {
 
@@ -12,13 +13,16 @@ using nlohmann::json;
 /// The diagnostics as a list of objects with severity, file, line, column, message and hint.
 inline json problems_of(const Diagnostics& diagnostics) {
     json out = json::array();
-    for (const auto& d : diagnostics.all())
+    for (const auto& d : diagnostics.all()) {
+        const bool quotes = (d.message + d.hint).find_first_of("<'") != std::string::npos;
+        const bool hidden = quotes && d.where.file && !may_quote(*d.where.file);
         out.push_back({{"severity", d.severity == Severity::error ? "error" : "warning"},
                        {"file", d.where.file ? d.where.file->path : ""},
                        {"line", d.where.line},
                        {"column", d.where.column},
-                       {"message", d.message},
-                       {"hint", d.hint}});
+                       {"message", hidden ? "this is not a file of the kind that belongs here" : d.message},
+                       {"hint", hidden ? "" : d.hint}});
+    }
     return out;
 }
 

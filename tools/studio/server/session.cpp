@@ -18,6 +18,7 @@
 #include "tools/studio/server/commands.h"
 #include "tools/studio/server/commands/command.h"
 #include "tools/studio/server/http_server.h"
+#include "tools/studio/server/page_paths.h"
 #include "tools/studio/server/plot_layout.h"
 #include "tools/studio/server/problems.h"
 
@@ -66,6 +67,10 @@ void Session::read_plot_config(const Run& run) {
 std::pair<std::unique_ptr<Run>, Touches*> Session::make_run(const RunInput& input, std::string* files) {
     Diagnostics diagnostics;
     const Sources sources = read_sources(input, diagnostics);
+    const int errors = diagnostics.errors();
+    if (sources.system) check_module_files(*sources.system, diagnostics);
+    if (diagnostics.errors() > errors)
+        throw InputError(std::move(diagnostics));  // no module reads such a file
     auto loaded = assemble(sources, input, diagnostics);
     throw_errors(diagnostics);
     auto run = Run::make(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
@@ -183,30 +188,29 @@ json Session::status() const {
         manipulations.push_back(live.run->layout().groups[static_cast<std::size_t>(group)].path);
     if (live.sampler) sampler = {{"file", live.sampler->what.file}, {"rows", live.sampler->rows}};
     const double rate = live.pace.running ? live.pace.measured_rate() : 0;
-    return {
-        {"type", "status"},
-        {"running", live.pace.running},
-        {"cycle", live.run->cycle()},
-        {"seconds", live.run->seconds()},
-        {"seed", live.run->seed()},
-        {"epoch", live.epoch},
-        {"speed", {{"mode", live.pace.mode()}, {"value", live.pace.value()}}},
-        {"cycles_per_second", rate},
-        {"times_real_time", rate * live.run->seconds_per_cycle()},
-        {"pages_share", live.pace.running ? live.pace.pages_share() : 0},
-        {"generation", edited.generation},
-        {"undo", UndoSteps::title(edited.steps.undo)},
-        {"redo", UndoSteps::title(edited.steps.redo)},
-        {"divergence", live.run->divergence()},
-        {"failed", live.failed},
-        {"sampler", std::move(sampler)},
-        {"sampler_waits", live.waiting_sampler.is_null() ? json(nullptr) : live.waiting_sampler.at("file")},
-        {"manipulations", std::move(manipulations)},
-        {"history", {{"first", live.history.first()}, {"last", live.history.last()}}},
-        {"trials", trials_status()},
-        {"compare", live.reference ? json{{"from", live.reference->from}} : json(nullptr)},
-        {"killed", recovery.killed},
-        {"save_failed", recovery.failed}};
+    return {{"type", "status"},
+            {"running", live.pace.running},
+            {"cycle", live.run->cycle()},
+            {"seconds", live.run->seconds()},
+            {"seed", live.run->seed()},
+            {"epoch", live.epoch},
+            {"speed", {{"mode", live.pace.mode()}, {"value", live.pace.value()}}},
+            {"cycles_per_second", rate},
+            {"times_real_time", rate * live.run->seconds_per_cycle()},
+            {"pages_share", live.pace.running ? live.pace.pages_share() : 0},
+            {"generation", edited.generation},
+            {"undo", UndoSteps::title(edited.steps.undo)},
+            {"redo", UndoSteps::title(edited.steps.redo)},
+            {"divergence", live.run->divergence()},
+            {"failed", live.failed},
+            {"sampler", std::move(sampler)},
+            {"sampler_waits", live.waiting_sampler ? json(live.waiting_sampler->file) : json(nullptr)},
+            {"manipulations", std::move(manipulations)},
+            {"history", {{"first", live.history.first()}, {"last", live.history.last()}}},
+            {"trials", trials_status()},
+            {"compare", live.reference ? json{{"from", live.reference->from}} : json(nullptr)},
+            {"killed", recovery.killed},
+            {"save_failed", recovery.failed}};
 }
 
 void Session::message(int client, std::string_view text) {

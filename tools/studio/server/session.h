@@ -137,6 +137,8 @@ class Session {
     void close_sampler();
 
     // ---- the document (session_document.cpp) ----
+    /// What is wrong with the document, and with the files that its modules name.
+    std::vector<Document::Problem> find_problems() const;
     /// Edits the system that `input` names; what was edited before is forgotten.
     void begin_document(const RunInput& input);
     /// Opens a system, also one that cannot run or be read, as the constructor does.

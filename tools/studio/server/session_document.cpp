@@ -13,6 +13,7 @@
 #include "tools/api/open/sources.h"
 #include "tools/studio/server/backups.h"
 #include "tools/studio/server/document_problems.h"
+#include "tools/studio/server/page_paths.h"
 #include "tools/studio/server/session.h"
 
 namespace forage::studio {
@@ -36,6 +37,13 @@ bool is_in_system(const Diagnostics& diagnostics, const std::string& system) {
 
 }  // namespace
 
+std::vector<Document::Problem> Session::find_problems() const {
+    Diagnostics files = edited.document->reading();
+    check_module_files(edited.document->system(), files);
+    if (files.errors() > edited.document->reading().errors()) return edited.document->located(files);
+    return edited.document->problems(live.run->registry(), live.run->environment());
+}
+
 void Session::begin_document(const RunInput& input) {
     if (std::filesystem::path(input.system).extension() == ".iqrProcess")
         edited.document = Document::unsaved({}, xml::write_system(live.run->system()), input.lenient);
@@ -51,7 +59,7 @@ void Session::begin_document(const RunInput& input) {
     edited.world_text.reset();
     edited.built = edited.document->system();
     edited.current = true, edited.outside = false;
-    edited.problems = edited.document->problems(live.run->registry(), live.run->environment());
+    edited.problems = find_problems();
     live.changed.clear(), edited.steps.clear();
 }
 
@@ -95,7 +103,7 @@ void Session::open_document(const RunInput& input) {
     open_any(input);
     note_opening();
     ++edited.generation;  // what pages write of the system before does not get into this one
-    live.waiting_sampler = nullptr;
+    live.waiting_sampler.reset();
     if (recovery.files) restart_autosave();
     // The page arranges its panels when it has the system, and an arena is one of them.
     pages.broadcast(world_message()), pages.broadcast(system_message()), broadcast_document();
@@ -200,10 +208,10 @@ void Session::follow_document(const std::string& title, const Equivalent& script
     const bool waited = edited.wanted.has_value();
     std::vector<std::string> ended;
     if (!edited.document->readable()) {
-        edited.problems = edited.document->problems(live.run->registry(), live.run->environment());
+        edited.problems = find_problems();
         edited.current = false;
     } else if (changes && !edited.wanted) {
-        edited.problems = edited.document->problems(live.run->registry(), live.run->environment());
+        edited.problems = find_problems();
         edited.current = !has_errors(edited.problems);
         if (edited.current) {
             std::vector<std::string> assignments;
@@ -255,6 +263,9 @@ bool Session::rebuild(bool continues) {
     Touches* touches = nullptr;
     const auto build = [&](bool go_on) {
         run.reset();
+        const int errors = diagnostics.errors();
+        check_module_files(edited.document->system(), diagnostics);
+        if (diagnostics.errors() > errors) return;  // no module reads such a file
         auto loaded = assemble(sources, set, diagnostics);
         if (!loaded) return;
         run = Run::make(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),

@@ -204,7 +204,7 @@ void Session::recover() {
     edited.wanted = std::move(killed.wanted);
     if (killed.current) edited.built = killed.document.system();
     edited.document = std::move(killed.document), edited.current = killed.current;
-    edited.problems = edited.document->problems(live.run->registry(), live.run->environment());
+    edited.problems = find_problems();
     if (killed.reference) run_beside(std::move(*killed.reference), killed.cycle);
     live.changed = std::move(killed.changed);
     edited.steps = std::move(killed.steps);

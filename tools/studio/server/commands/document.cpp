@@ -10,6 +10,7 @@
 #include "core/xml/writer.h"
 #include "tools/studio/server/backups.h"
 #include "tools/studio/server/commands/shared.h"
+#include "tools/studio/server/page_paths.h"
 #include "tools/studio/server/recent.h"
 #include "tools/studio/server/settings.h"
 
@@ -70,6 +71,7 @@ json open_new_system(Session& s, const Request& r) {
     input.text = made.text();
     input.system = "untitled.iqr";
     input.world = r.text("world"), input.world_text.clear();
+    check_readable(input.world, {FileKind::world});
     s.open_document(input);
     s.edited.document = made;
     s.broadcast_document();
@@ -79,13 +81,18 @@ json open_new_system(Session& s, const Request& r) {
 json save_document(Session& s, const Request& r) {
     auto& document = *s.edited.document;
     const auto file = r.text("file");
-    if (!file.empty() && fs::path(file).extension() != ".iqr")
-        throw InputError(fmt::format("'{}' is not a name of a system", file), "it ends with .iqr");
     const std::string before = document.path(), to = file.empty() ? before : file;
-    refuse_shipped(s, to);
     if (backup_of(to))
         throw InputError(fmt::format("'{}' is a backup and stays as it is", to),
                          "save it under the name of the system, or under another one");
+    std::error_code ignored;
+    const bool same = to == before || fs::equivalent(to, before, ignored);
+    if (!same)
+        check_writable(s, to, FileKind::system, r.flag("overwrite"));
+    else if (document.changed_outside())
+        check_replaceable(s, to, FileKind::system);
+    else
+        refuse_shipped(s, to);
     document.save(file, s.run().registry(), r.flag("overwrite"), s.edited.steps.texts_of_system());
     // The file now has a text that does not run.
     if (!s.edited.current && s.edited.input.text.empty()) s.edited.input.text = s.live.begun.text;
@@ -118,6 +125,7 @@ json write_backup(Session& s, const Request&) {
 
 json reload_document(Session& s, const Request& r) {
     const auto keep = r.text("keep"), before = s.edited.document->text();
+    if (keep != "mine") check_readable(s.edited.document->path(), {FileKind::system});
     const bool changed = s.edited.document->reload(keep == "mine"     ? Document::Keep::mine
                                                    : keep == "theirs" ? Document::Keep::theirs
                                                                       : Document::Keep::merge);
@@ -144,6 +152,7 @@ json import_process_file(Session& s, const Request& r) {
     auto& document = *s.edited.document;
     const auto path = r.text("file");
     const bool link = r.flag("link");
+    check_readable(path, {FileKind::process});
     auto file = process_file(path);
     const std::string title = "import " + fs::path(path).filename().string();
     if (link) refuse_taken_ids(document.system(), file, path);
@@ -167,11 +176,9 @@ json import_process_file(Session& s, const Request& r) {
 
 json export_process_file(Session& s, const Request& r) {
     const auto path = r.text("file");
-    if (fs::path(path).extension() != ".iqrProcess")
-        throw InputError(fmt::format("'{}' is not a name of a process", path), "it ends with .iqrProcess");
     if (!s.edited.document->readable())
         throw InputError("the text of the system has mistakes that hide its meaning", "correct them first");
-    check_free(s, path, r.flag("overwrite"));
+    check_writable(s, path, FileKind::process, r.flag("overwrite"));
     write_file(path,
                xml::write_process(model::extract_process(s.edited.document->system(), r.text("process"))));
     return {{"file", path}};

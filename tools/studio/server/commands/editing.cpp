@@ -9,6 +9,7 @@
 #include "tools/api/edit/forms.h"
 #include "tools/api/edit/operations.h"
 #include "tools/studio/server/commands/shared.h"
+#include "tools/studio/server/page_paths.h"
 #include "tools/studio/server/problems.h"
 
 namespace forage::studio {
@@ -176,6 +177,10 @@ json edit_document(Session& s, const Request& r) {
         title = title_of(operations.front(), document.system());
         if (operations.size() > 1) title += fmt::format(" and {} more", operations.size() - 1);
     }
+    for (const auto& o : operations)
+        if (const auto file = o.find("file");
+            file != o.end() && file->is_string() && o.value("do", json()) == "import")
+            check_readable(file->get<std::string>(), {FileKind::process});
     json ids = json::array();
     const std::string before = document.text();
     document.edit([&](model::System& system) {

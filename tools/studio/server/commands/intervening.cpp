@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -8,6 +7,7 @@
 #include "core/observe/pattern_file.h"
 #include "tools/api/open/moves.h"
 #include "tools/studio/server/commands/shared.h"
+#include "tools/studio/server/page_paths.h"
 
 namespace forage::studio {
 namespace {
@@ -141,6 +141,7 @@ json read_patterns(Session& s, const Request& r) {
     Diagnostics diagnostics;
     const auto shape = group_of(s, r.text("group")).shape;
     const auto file = r.has("file") ? r.text("file") : "patterns";
+    if (!r.has("text")) check_readable(file, {FileKind::patterns});
     const auto patterns = r.has("text") ? observe::parse_patterns(r.text("text"), file, shape, diagnostics)
                                         : observe::read_patterns(file, shape, diagnostics);
     throw_errors(diagnostics);
@@ -149,11 +150,9 @@ json read_patterns(Session& s, const Request& r) {
 
 json write_patterns(Session& s, const Request& r) {
     const auto file = r.text("file");
-    if (std::filesystem::path(file).extension() != ".txt")
-        throw InputError(fmt::format("'{}' is not a name of a file of patterns", file), "it ends with .txt");
     const auto& group = group_of(s, r.text("group"));
     const auto patterns = patterns_for(group, r["patterns"]);
-    check_free(s, file, r.flag("overwrite"));
+    check_writable(s, file, FileKind::patterns, r.flag("overwrite"));
     write_file(file, observe::patterns_text(patterns, group.shape));
     return {{"file", file}};
 }

@@ -6,6 +6,7 @@
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
 #include "tools/studio/server/commands/shared.h"
+#include "tools/studio/server/page_paths.h"
 #include "tools/studio/server/plot_layout.h"
 
 namespace forage::studio {
@@ -39,18 +40,28 @@ json read_saved_layout(Session& s, const Request& r) {
     const auto name = r.text("name");
     if (is_plot_config(name)) {
         const auto path = (system_folder(s) / name).string();
+        check_readable(path, {FileKind::plots});
         return {{"content", plot_layout(s.run(), path, read_file(path))}};
     }
     const auto path = layout_path(s, name);
-    const json content = json::parse(read_file(path), nullptr, false);
-    if (content.is_discarded()) throw InputError(fmt::format("'{}' is not a layout", path));
-    return {{"content", content}};
+    check_readable(path, {FileKind::layout});
+    return {{"content", json::parse(read_file(path))}};
+}
+
+json convert_layout(Session& s, const Request& r) {
+    if (!is_of_kind(r.text("text"), FileKind::plots))
+        throw InputError("the text is no configuration of plots",
+                         "it begins with <iqrDataManagerConfiguration>");
+    return {{"content", plot_layout(s.run(), r.text("file"), r.text("text"))}};
 }
 
 json write_layout(Session& s, const Request& r) {
     const auto path = layout_path(s, r.text("name"));
-    check_new(path, r.flag("overwrite"));
-    write_file(path, r["content"].dump(1) + "\n");
+    const auto text = r["content"].dump(1) + "\n";
+    if (!is_of_kind(text, FileKind::layout))
+        throw InputError("the content is not that of a layout", "an object with 'dock' or 'plots'");
+    check_writable(s, path, FileKind::layout, r.flag("overwrite"));
+    write_file(path, text);
     return {{"file", path}};
 }
 
@@ -65,16 +76,6 @@ json keep_panels(Session& s, const Request& r) {
 std::filesystem::path system_folder(const Session& s) {
     const auto parent = std::filesystem::path(s.edited.input.system).parent_path();
     return parent.empty() ? "." : parent;
-}
-
-void check_new(const std::string& path, bool overwrite) {
-    if (!overwrite && std::filesystem::exists(path))
-        throw FileExists(fmt::format("'{}' exists", path), "overwrite it, or choose another name");
-}
-
-void check_free(const Session& s, const std::string& path, bool overwrite) {
-    refuse_shipped(s, path);
-    check_new(path, overwrite);
 }
 
 std::vector<Command> layout_commands() {
@@ -94,9 +95,7 @@ std::vector<Command> layout_commands() {
          .doc = "Converts the text of a `.conf` of the original.",
          .arguments = {{"text", text()}, optional("file", path(), "plots.conf", "a name for messages")},
          .result = found,
-         .apply = [](Session& s, const Request& r) -> json {
-             return {{"content", plot_layout(s.run(), r.text("file"), r.text("text"))}};
-         }},
+         .apply = convert_layout},
         {.name = "layout_write",
          .doc = "Writes a layout beside the system.",
          .arguments = {{"name", path()}, content, optional("overwrite", boolean(), false)},

@@ -7,17 +7,13 @@
 #include "core/xml/panel.h"
 #include "tools/api/describe/describe_json.h"
 #include "tools/studio/server/commands/shared.h"
+#include "tools/studio/server/page_paths.h"
 
 namespace forage::studio {
 namespace {
 
-std::string panel_path(const Request& r, const char* ending) {
-    auto path = r.text("file");
-    if (!path.ends_with(ending)) throw InputError(fmt::format("'{}' does not end with {}", path, ending));
-    return path;
-}
-
-std::vector<xml::PanelRow> read_panel(const std::string& path) {
+std::vector<xml::PanelRow> read_panel(const std::string& path, FileKind kind) {
+    check_readable(path, {kind});
     Diagnostics diagnostics;
     auto rows = xml::parse_panel(path, read_file(path), diagnostics);
     throw_errors(diagnostics);
@@ -55,23 +51,23 @@ std::vector<xml::PanelRow> rows_in(Session& s, const Request& r) {
 
 json read_panel_file(Session& s, const Request& r) {
     json rows = json::array();
-    for (const auto& row : read_panel(panel_path(r, ".hconf")))
+    for (const auto& row : read_panel(r.text("file"), FileKind::panel))
         rows.push_back(one_parameter(s, row.id, row.parameter));
     return {{"rows", std::move(rows)}};
 }
 
 json write_panel_file(Session& s, const Request& r) {
-    const auto path = panel_path(r, ".hconf");
+    const auto path = r.text("file");
     const auto rows = rows_in(s, r);
-    check_free(s, path, r.flag("overwrite"));
+    check_writable(s, path, FileKind::panel, r.flag("overwrite"));
     write_file(path, xml::panel_text(rows, false));
     return {{"file", path}};
 }
 
 json read_parameter_file(Session& s, const Request& r) {
-    const auto file = panel_path(r, ".pconf");
+    const auto file = r.text("file");
     std::vector<std::string> assignments, missing;
-    for (const auto& row : read_panel(file)) {
+    for (const auto& row : read_panel(file, FileKind::parameters)) {
         try {
             assignments.push_back(one_parameter(s, row.id, row.parameter)["assignment"].get<std::string>() +
                                   "=" + row.value);
@@ -99,8 +95,8 @@ std::vector<std::string> all_items(const model::System& system) {
 }
 
 json write_parameter_file(Session& s, const Request& r) {
-    const auto path = panel_path(r, ".pconf");
-    check_free(s, path, r.flag("overwrite"));
+    const auto path = r.text("file");
+    check_writable(s, path, FileKind::parameters, r.flag("overwrite"));
     std::vector<xml::PanelRow> rows;
     if (r.has("rows")) {
         rows = rows_in(s, r);

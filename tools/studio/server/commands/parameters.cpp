@@ -6,6 +6,7 @@
 #include "tools/api/describe/describe_json.h"
 #include "tools/studio/server/commands.h"
 #include "tools/studio/server/commands/shared.h"
+#include "tools/studio/server/page_paths.h"
 
 namespace forage::studio {
 namespace {
@@ -19,6 +20,13 @@ std::string value_in(const std::string& assignment) {
 }
 
 bool acts_at_start(const model::Assignment& a) { return !a.parameter || a.parameter->at_start; }
+
+/// Throws InputError for the path of a file that no module may read or write.
+void check_file(const model::System& system, const model::Assignment& a) {
+    if (!a.parameter || !a.parameter->is_path) return;
+    if (const auto* use = model::find_use(system, a.id))
+        check_module_file(use->type, a.parameter->name, std::get<std::string>(a.value));
+}
 
 json set_by_page(Session& s, const Request& r) {
     const auto assignments = r.texts("assignments");
@@ -71,6 +79,7 @@ std::vector<std::string> inverse(Session& s, const std::vector<std::string>& ass
     for (const std::string& text : assignments) {
         const auto change = model::parse_assignment(run.system(), run.registry(), text, "set", diagnostics);
         if (!change) continue;
+        check_file(run.system(), *change);
         const auto name = name_in(text);
         ParameterValue now = model::value_of(run.system(), *change);
         if (const auto it = s.live.changed.find(name); it != s.live.changed.end() && acts_at_start(*change)) {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "tools/studio/server/commands/shared.h"
+#include "tools/studio/server/page_paths.h"
 
 namespace forage::studio {
 namespace {
@@ -87,10 +88,12 @@ json set_speed(Session& s, const Request& r) {
 json open_system(Session& s, const Request& r) {
     RunInput input = s.edited.input;
     input.more.clear(), input.settings.clear(), input.text.clear(), input.world_text.clear();
-    const std::filesystem::path folder = r.flag("shipped") ? s.shipped() : "";
-    const auto world = r.text("world");
-    input.system = folder / r.text("system");
-    input.world = world.empty() ? world : (folder / world).string();
+    const auto path = [&](const std::string& name) {
+        return r.flag("shipped") && !name.empty() ? shipped_path(s, name) : name;
+    };
+    input.system = path(r.text("system")), input.world = path(r.text("world"));
+    check_readable(input.system, {FileKind::system, FileKind::process});
+    check_readable(input.world, {FileKind::world});
     s.open_document(input);
     return json::object();
 }
@@ -106,6 +109,7 @@ void forget_world_steps(Session& s) {
 json open_world(Session& s, const Request& r) {
     RunInput input = s.edited.input;
     input.world = r.text("world"), input.world_text.clear();
+    check_readable(input.world, {FileKind::world});
     const auto ended = s.lost_by_rebuild();
     reset_with(s, input);
     s.edited.world_text.reset();

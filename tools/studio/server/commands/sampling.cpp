@@ -8,6 +8,7 @@
 #include "core/observe/row_file.h"
 #include "core/run/recordings.h"
 #include "tools/studio/server/commands/shared.h"
+#include "tools/studio/server/page_paths.h"
 
 namespace forage::studio {
 namespace {
@@ -16,11 +17,14 @@ namespace fs = std::filesystem;
 
 /// The next name of a sequence of files that is free: "light.csv" gives "light_001.csv", "light_002.csv", ...
 std::string next_of_sequence(const fs::path& file) {
-    for (int i = 1;; ++i) {
+    constexpr int max_number = 99'999;
+    for (int i = 1; i <= max_number; ++i) {
         const auto name = file.parent_path() /
                           fmt::format("{}_{:03}{}", file.stem().string(), i, file.extension().string());
         if (!fs::exists(name)) return name.string();
     }
+    throw InputError(fmt::format("the sequence of '{}' has {} files", file.string(), max_number),
+                     "choose another name");
 }
 
 /// Opens partial(file) with the rows that `file` has, to append rows of the same sources. Throws InputError.
@@ -39,41 +43,41 @@ std::unique_ptr<observe::RowFile> continued(observe::RecordingFormat format, con
     return observe::open_row_file(format, partial(file), header, observe::RowFilePosition{0, old.size()});
 }
 
-/// Begins a recording as the arguments of the command `sample` say. Throws InputError.
-void begin_sampling(Session& s, const json& how) {
-    std::string file = how.at("file").get<std::string>();
-    const auto mode = how.at("mode").get<std::string>();
-    const auto sources = how.at("sources").get<std::vector<std::string>>();
-    const auto every = how.at("every").get<std::uint64_t>();
-    if (sources.empty()) throw InputError("the sampler needs a source");
-    if (mode == "sequence")
-        file = next_of_sequence(file);
-    else if (mode == "new" && fs::exists(file))
+/// The file that a recording would write now, with what gets into it. Writes nothing. Throws InputError.
+std::pair<std::string, RecordingFile> planned(const Session& s, const SamplerRequest& how) {
+    if (how.sources.empty()) throw InputError("the sampler needs a source");
+    const auto file = how.mode == "sequence" ? next_of_sequence(how.file) : how.file;
+    if (how.mode == "new" && fs::exists(file))
         throw FileExists(fmt::format("'{}' exists", file),
                          "overwrite it, append to it, or choose another name");
+    check_writable(s, file, FileKind::recording, true);
     std::vector<model::RecordingSpec> specs;
-    for (const auto& source : sources)
-        specs.push_back({{source + "=" + fs::path(file).filename().string()}, every});
+    for (const auto& source : how.sources)
+        specs.push_back({{source + "=" + fs::path(file).filename().string()}, how.every});
     Diagnostics diagnostics;
-    auto files = recorded_files(specs, {}, s.run().layout(), diagnostics);
+    auto files = recorded_files(specs, {}, s.live.run->layout(), diagnostics);
     check_output(file, "samples.csv", diagnostics);
     throw_errors(diagnostics);
     if (files.size() != 1 || !files.front().archive.empty())
         throw InputError("a sampler writes one file", "its name ends with .csv, .npy, .h5 or .dat");
+    return {file, std::move(files.front())};
+}
+
+/// Begins a recording. Throws InputError.
+void begin_sampling(Session& s, const SamplerRequest& how) {
+    auto [file, recorded] = planned(s, how);
     observe::RowFileHeader header;
-    for (const auto& source : files.front().sources) header.sources.push_back(source.what());
-    header.every = every;
+    for (const auto& source : recorded.sources) header.sources.push_back(source.what());
+    header.every = how.every;
     Sampler sampler;
-    sampler.what = {sources, file, every, s.run().cycle()};
-    if (const auto cycles = how.find("cycles"); cycles != how.end()) {
-        sampler.left = cycles->get<std::uint64_t>();
-        sampler.what.until = s.run().cycle() + *sampler.left - 1;
-    }
-    auto rows = mode == "append" && fs::exists(file)
-                    ? continued(files.front().format, file, header)
-                    : observe::open_row_file(files.front().format, partial(file), header);
-    sampler.recorder.emplace(std::move(rows), std::move(files.front().sources),
-                             observe::Sampling{every, 0, std::nullopt, false});
+    sampler.what = {how.sources, file, how.every, s.run().cycle()};
+    sampler.left = how.cycles;
+    if (how.cycles) sampler.what.until = s.run().cycle() + *how.cycles - 1;
+    auto rows = how.mode == "append" && fs::exists(file)
+                    ? continued(recorded.format, file, header)
+                    : observe::open_row_file(recorded.format, partial(file), header);
+    sampler.recorder.emplace(std::move(rows), std::move(recorded.sources),
+                             observe::Sampling{how.every, 0, std::nullopt, false});
     s.live.sampler = std::move(sampler);
     s.pages.status_due = true;
     s.log(
@@ -83,27 +87,29 @@ void begin_sampling(Session& s, const json& how) {
 json begin_sampler(Session& s, const Request& r) {
     if (s.live.sampler) throw InputError("the sampler runs already", "stop it first");
     const bool automatic = r.flag("automatic");
-    json how = r.all();
     // The second run would find the file of the first one.
-    if (!r.has("mode")) how["mode"] = automatic ? "sequence" : "new";
-    if (automatic && how["mode"] == "new")
+    const std::string mode = r.has("mode") ? r.text("mode") : automatic ? "sequence" : "new";
+    SamplerRequest how{r.text("file"), mode, r.texts("sources"), r.whole("every"), {}};
+    if (r.has("cycles")) how.cycles = r.whole("cycles");
+    if (automatic && how.mode == "new")
         throw InputError("a file for each run is one of a sequence, or it is overwritten or appended to",
                          "sequence, overwrite or append");
     if (automatic && !s.live.pace.running) {
-        s.live.waiting_sampler = how;
+        planned(s, how);
+        s.live.waiting_sampler = std::move(how);
         s.pages.status_due = true;
         return {{"file", nullptr}};
     }
     begin_sampling(s, how);
-    if (automatic) s.live.waiting_sampler = how;
+    if (automatic) s.live.waiting_sampler = std::move(how);
     return {{"file", s.live.sampler->what.file}};
 }
 
 json stop_sampler(Session& s, const Request&) {
-    if (!s.live.sampler && s.live.waiting_sampler.is_null()) throw InputError("the sampler does not run");
+    if (!s.live.sampler && !s.live.waiting_sampler) throw InputError("the sampler does not run");
     json out = {{"file", nullptr}, {"rows", 0}};
     if (s.live.sampler) out = {{"file", s.live.sampler->what.file}, {"rows", s.live.sampler->rows}};
-    s.live.waiting_sampler = nullptr, s.pages.status_due = true;
+    s.live.waiting_sampler.reset(), s.pages.status_due = true;
     s.close_sampler();
     return out;
 }
@@ -111,8 +117,8 @@ json stop_sampler(Session& s, const Request&) {
 }  // namespace
 
 void begin_waiting_sampler(Session& s) {
-    if (s.live.waiting_sampler.is_null() || s.live.sampler || s.live.sampled) return;
-    begin_sampling(s, s.live.waiting_sampler);
+    if (!s.live.waiting_sampler || s.live.sampler || s.live.sampled) return;
+    begin_sampling(s, *s.live.waiting_sampler);
     s.live.sampled = true;
 }
 

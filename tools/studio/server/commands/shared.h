@@ -14,10 +14,6 @@ namespace forage::studio {
 std::filesystem::path system_folder(const Session& session);
 /// Throws InputError for a file that comes with Forage.
 void refuse_shipped(const Session& session, const std::string& path);
-/// Throws FileExists unless the file may be overwritten.
-void check_new(const std::string& path, bool overwrite);
-/// Throws InputError when a command may not write the file.
-void check_free(const Session& session, const std::string& path, bool overwrite);
 
 // ---- the run ----
 std::size_t find_robot(Session& session, const Request& request);

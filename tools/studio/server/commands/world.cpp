@@ -10,6 +10,7 @@
 #include "core/base/text_file.h"
 #include "tools/api/edit/world_operations.h"
 #include "tools/studio/server/commands/shared.h"
+#include "tools/studio/server/page_paths.h"
 
 namespace forage::studio {
 namespace {
@@ -88,12 +89,8 @@ json edit_world(Session& s, const Request& r) {
 json save_world(Session& s, const Request& r) {
     auto& world = world_text(s);
     const auto file = r.has("file") ? r.text("file") : world.path;
-    if (std::filesystem::path(file).extension() != ".world")
-        throw InputError(fmt::format("'{}' is not a name of a world", file), "it ends with .world");
-    refuse_shipped(s, file);
-    if (file != world.path)
-        check_new(file, r.flag("overwrite"));
-    else if (!r.flag("overwrite") && read_file(file) != world.saved)
+    check_writable(s, file, FileKind::world, r.flag("overwrite") || file == world.path);
+    if (file == world.path && !r.flag("overwrite") && read_file(file) != world.saved)
         throw FileExists(fmt::format("'{}' was changed outside since it was read", file), "overwrite it");
     RunInput wanted = s.live.begun;  // with the text that the system had: its file may have changed
     wanted.world = file, wanted.world_text = world.text;

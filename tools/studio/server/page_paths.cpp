@@ -1,0 +1,271 @@
+#include "tools/studio/server/page_paths.h"
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <optional>
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "core/base/number.h"
+#include "core/base/output_files.h"
+#include "core/base/text_file.h"
+#include "core/model/lookup.h"
+#include "tools/api/edit/json_text.h"
+#include "tools/studio/server/commands/shared.h"
+
+namespace forage::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct KindOfFile {
+    FileKind kind;
+    const char* name;
+    std::vector<std::string> endings;
+    std::vector<std::string_view> roots;  ///< the names of its first element; none when it is not XML
+    const char* begins;
+};
+
+const KindOfFile& about(FileKind kind) {
+    static const std::vector<KindOfFile> all = {
+        {FileKind::system, "a system", {".iqr"}, {"System"}, "it begins with <System>"},
+        {FileKind::process, "a process", {".iqrProcess"}, {"iqrEntity"}, "it begins with <iqrEntity>"},
+        {FileKind::world, "a world", {".world"}, {"sdf", "gazebo"}, "it begins with <sdf>"},
+        {FileKind::plots,
+         "a configuration of plots",
+         {".conf"},
+         {"iqrDataManagerConfiguration"},
+         "it begins with <iqrDataManagerConfiguration>"},
+        {FileKind::panel, "a panel", {".hconf"}, {"HarborConfig"}, "it begins with <HarborConfig>"},
+        {FileKind::parameters, "a set of parameters", {".pconf"}, {"ParamSet"}, "it begins with <ParamSet>"},
+        {FileKind::layout, "a layout", {".layout.json"}, {}, "it is JSON with 'dock' or 'plots'"},
+        {FileKind::patterns, "a file of patterns", {".txt"}, {}, "it holds numbers only"},
+        {FileKind::table, "a table", {".csv"}, {}, "a row is cycle,process,target,v0,v1,..."},
+        {FileKind::recording,
+         "a recording",
+         {".csv", ".dat", ".npy", ".h5"},
+         {},
+         "its first column is 'cycle', or it is of NumPy or HDF5"}};
+    return *std::ranges::find(all, kind, &KindOfFile::kind);
+}
+
+/// The name of the first element of a text; empty when something else comes before it.
+std::string_view first_element(std::string_view text) {
+    if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+    const auto skip_past = [&](std::string_view end) {
+        const auto at = text.find(end);
+        text.remove_prefix(at == text.npos ? text.size() : at + end.size());
+    };
+    while (true) {
+        text.remove_prefix(std::min(text.find_first_not_of(" \t\r\n"), text.size()));
+        if (text.starts_with("<?"))
+            skip_past("?>");
+        else if (text.starts_with("<!--"))
+            skip_past("-->");
+        else if (text.starts_with("<!DOCTYPE"))
+            skip_past(text.substr(0, text.find('>')).find('[') == text.npos ? ">" : "]>");
+        else
+            break;
+    }
+    if (!text.starts_with('<')) return {};
+    text.remove_prefix(1);
+    return text.substr(0, text.find_first_of(" \t\r\n/>"));
+}
+
+/// The rest of `text` becomes what follows the first line.
+std::string_view next_line(std::string_view& text) {
+    const auto end = std::min(text.find('\n'), text.size());
+    const auto line = text.substr(0, end);
+    text.remove_prefix(std::min(end + 1, text.size()));
+    return line;
+}
+
+bool is_number(std::string_view field) { return parse_number<double>(model::trim(field)).has_value(); }
+
+bool are_numbers(std::string_view line, std::string_view separators) {
+    while (!line.empty()) {
+        const auto end = std::min(line.find_first_of(separators), line.size());
+        const auto field = line.substr(0, end);
+        if (!model::trim(field).empty() && !is_number(field)) return false;
+        line.remove_prefix(std::min(end + 1, line.size()));
+    }
+    return true;
+}
+
+bool is_comment(std::string_view line) { return line.starts_with('#') || model::trim(line).empty(); }
+
+bool holds_patterns(std::string_view text) {
+    while (!text.empty())
+        if (const auto line = next_line(text); !is_comment(line) && !are_numbers(line, " \t\r,;"))
+            return false;
+    return true;
+}
+
+bool holds_table(std::string_view text) {
+    while (!text.empty()) {
+        auto line = next_line(text);
+        if (is_comment(line) || line.starts_with("cycle,")) continue;
+        const auto cycle = line.substr(0, line.find(','));
+        for (int names = 0; names < 3; ++names) {  // what is before the values
+            const auto comma = line.find(',');
+            if (comma == line.npos) return false;
+            line.remove_prefix(comma + 1);
+        }
+        if (!is_number(cycle) || !are_numbers(line, ",\r")) return false;
+    }
+    return true;
+}
+
+bool holds_recording(std::string_view text) {
+    using namespace std::string_view_literals;
+    if (text.starts_with("\x93NUMPY") || text.starts_with("\x89HDF\r\n\x1a\n"sv)) return true;
+    while (!text.empty())
+        if (const auto line = next_line(text); !is_comment(line))
+            return line.starts_with("cycle,") || line.starts_with("cycle;") || model::trim(line) == "cycle";
+    return true;
+}
+
+bool holds_layout(std::string_view text) {
+    if (size_of_json(text).depth > 100) return false;
+    const auto content = nlohmann::json::parse(text, nullptr, false);
+    return content.is_object() && (content.contains("dock") || content.contains("plots"));
+}
+
+constexpr std::size_t max_beginning = std::size_t{4} << 20;
+
+/// The beginning of a regular file; empty when it cannot be opened. Throws InputError for something else.
+std::optional<std::string> beginning_of(const std::string& path) {
+    if (path.find('\0') != path.npos) throw InputError("a path has a NUL character");
+    const int file = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) return std::nullopt;
+    struct stat about = {};
+    const bool regular = fstat(file, &about) == 0 && S_ISREG(about.st_mode);
+    std::string out;
+    std::array<char, std::size_t{1} << 16> block;
+    while (regular && out.size() < max_beginning) {
+        const auto count = ::read(file, block.data(), block.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count <= 0) break;
+        out.append(block.data(), static_cast<std::size_t>(count));
+    }
+    ::close(file);
+    if (!regular) throw InputError(fmt::format("'{}' is not a file", path), "a page reads and writes files");
+    if (out.size() >= max_beginning) out.resize(out.rfind('\n') + 1);  // its last line may be cut
+    return out;
+}
+
+/// Modules that read or write numbers.
+struct ModuleFile {
+    std::string_view type, parameter;
+    FileKind kind;
+};
+constexpr ModuleFile module_files[] = {{"moduleReplay", "file", FileKind::table},
+                                       {"moduleAL", "File Name", FileKind::patterns}};
+
+}  // namespace
+
+bool is_of_kind(std::string_view text, FileKind kind) {
+    if (model::trim(text).empty()) return true;
+    switch (kind) {
+        case FileKind::layout:
+            return holds_layout(text);
+        case FileKind::patterns:
+            return holds_patterns(text);
+        case FileKind::table:
+            return holds_table(text);
+        case FileKind::recording:
+            return holds_recording(text);
+        default:
+            return std::ranges::count(about(kind).roots, first_element(text)) > 0;
+    }
+}
+
+void check_readable(const std::string& path, std::initializer_list<FileKind> kinds) {
+    if (const auto text = beginning_of(path);
+        text && std::ranges::none_of(kinds, [&](auto kind) { return is_of_kind(*text, kind); }))
+        throw InputError(fmt::format("'{}' is not {}", path, about(*kinds.begin()).name),
+                         about(*kinds.begin()).begins);
+}
+
+void check_replaceable(const Session& session, const std::string& path, FileKind kind) {
+    if (kind != FileKind::layout) refuse_shipped(session, path);  // layouts are beside their system
+    std::error_code none;
+    if (fs::is_symlink(path, none) && !fs::exists(path, none))
+        throw InputError(fmt::format("'{}' is a link to a file that does not exist", path),
+                         "choose another name");
+    if (const auto part = fs::symlink_status(partial(path), none);
+        fs::exists(part) && part.type() != fs::file_type::regular)
+        throw InputError(fmt::format("'{}' is not a file", partial(path)), "choose another name");
+    if (!fs::exists(path, none)) return;
+    check_readable(path, {kind});
+    if (access(path.c_str(), R_OK) != 0)
+        throw InputError(fmt::format("'{}' cannot be read, so it is not replaced", path),
+                         "choose another name");
+}
+
+void check_writable(const Session& session, const std::string& path, FileKind kind, bool overwrite) {
+    const auto& file = about(kind);
+    if (std::ranges::none_of(file.endings, [&](const auto& e) { return path.ends_with(e); }))
+        throw InputError(fmt::format("'{}' is not a name of {}", path, file.name),
+                         fmt::format("it ends with {}", fmt::join(file.endings, ", ")));
+    const auto folder = fs::path(path).parent_path();
+    std::error_code none;
+    if (!folder.empty() && !fs::is_directory(folder, none))
+        throw InputError(fmt::format("there is no folder '{}'", folder.string()),
+                         "choose a folder that exists");
+    check_replaceable(session, path, kind);
+    if (!overwrite && fs::exists(path, none))
+        throw FileExists(fmt::format("'{}' exists", path), "overwrite it, or choose another name");
+}
+
+std::string shipped_path(const Session& session, const std::string& name) {
+    const fs::path path = name;
+    if (path.is_absolute() || std::ranges::find(path, "..") != path.end())
+        throw InputError(fmt::format("'{}' is not a name of a file that comes with Forage", name),
+                         "such as tutorial/reflex.iqr");
+    return (fs::path(session.shipped()) / path).string();
+}
+
+void check_module_file(const std::string& type, const std::string& parameter, const std::string& path) {
+    for (const auto& file : module_files)
+        if (file.type == type && file.parameter == parameter && !path.empty())
+            check_readable(path, {file.kind});
+}
+
+void check_module_files(const model::System& system, Diagnostics& diagnostics) {
+    for (const auto& p : system.processes) {
+        if (!p.module) continue;
+        for (const auto& setting : p.module->settings) try {
+                check_module_file(p.module->type, setting.name,
+                                  model::resolved(setting.value, setting.value_at));
+            } catch (const InputError& e) {
+                const auto& found = e.diagnostics().all().front();
+                diagnostics.error(setting.value_at, found.message, found.hint);
+            }
+    }
+}
+
+bool may_quote(const SourceFile& file) {
+    const auto has_root = [&](auto... names) {
+        const auto root = first_element(file.text);
+        return ((root == names) || ...);
+    };
+    if (has_root("System", "iqrEntity", "sdf", "gazebo", "model", "iqrDataManagerConfiguration",
+                 "HarborConfig", "ParamSet") ||
+        is_of_kind(file.text, FileKind::patterns) || is_of_kind(file.text, FileKind::table))
+        return true;
+    try {
+        return !read_file(file.path).starts_with(file.text);  // else a page has written the text
+    } catch (const FileError&) {
+        return true;
+    }
+}
+
+}  // namespace forage::studio
