@@ -86,13 +86,13 @@ std::pair<std::unique_ptr<Run>, Touches*> Session::make_run(const RunInput& inpu
 void Session::open(RunInput input) {
     std::string files;
     auto [run, touches] = make_run(input, &files);
+    RunInput begun = input;
+    // The text as it is now: the file may change while the run goes.
+    if (begun.text.empty() && !begun.system.ends_with(".iqrProcess")) begun.text = read_file(begun.system);
     close_sampler();
     end_reference();
     live.files = std::move(files);
-    edited.input = live.begun = std::move(input);
-    // The text as it is now: the file may change while the run goes.
-    if (live.begun.text.empty() && !live.begun.system.ends_with(".iqrProcess"))
-        live.begun.text = read_file(live.begun.system);
+    live.begun = std::move(begun), edited.input = std::move(input);
     live.run = std::move(run);
     live.touches = touches;
     pages.rebind(*live.run);  // at once: what follows may fail, and streams must not read the run before
@@ -313,21 +313,22 @@ void Session::cycle() {
 
 void Session::close_sampler() {
     if (!live.sampler) return;
-    live.sampler->recorder->close();
-    finish(live.sampler->what.file);
-    auto what = live.sampler->what;
-    what.until.reset();
-    if (live.sampler->rows > 0) what.until = live.run->cycle() - 1;
-    live.sampler.reset();
+    auto sampler = *std::exchange(live.sampler, std::nullopt);  // it has ended also when its disk is full
     pages.status_due = true;
+    sampler.recorder->close();
+    finish(sampler.what.file);
+    auto& what = sampler.what;
+    what.until.reset();
+    if (sampler.rows > 0) what.until = live.run->cycle() - 1;
     log({.command = "sample_stop", .title = "end of recording", .scripts = of_sampling_end(what)});
 }
 
 void Session::go_to(std::uint64_t cycle) {
+    const bool back = !live.failed.empty() || !live.history.ahead(live.run->cycle(), cycle);
+    if (back && live.sampler) throw InputError("a sampler cannot go back", "stop the sampler first");
     live.pace.running = false;
     if (live.reference && (cycle < live.reference->from || !live.failed.empty())) end_reference();
-    if (!live.failed.empty() || !live.history.ahead(live.run->cycle(), cycle)) {
-        if (live.sampler) throw InputError("a sampler cannot go back", "stop the sampler first");
+    if (back) {
         if (!live.failed
                  .empty()) {  // a run that failed cannot continue, so its past is restored into a new one
             auto past = live.history;

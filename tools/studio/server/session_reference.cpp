@@ -37,8 +37,8 @@ void Session::begin_reference(std::uint64_t cycle) {
 }
 
 void Session::run_beside(Reference made, std::uint64_t cycle) {
-    end_reference();
     std::tie(made.run, made.touches) = make_run(live.begun);
+    end_reference();
     live.reference.emplace(std::move(made));
     with_reference([&] { replay(cycle); });
     pages.status_due = true;

@@ -31,11 +31,11 @@ json seek_cycle(Session& s, const Request& r) {
 
 json branch_off(Session& s, const Request& r) {
     const auto assignments = r.texts("assignments");
+    if (assignments.empty()) throw InputError("there is nothing to set");
     inverse(s, assignments);
     seek_cycle(s, r);
-    return set_parameters(
-        s, assignments,
-        fmt::format("from cycle {}: {}", s.run().cycle(), assignments.empty() ? "" : assignments.front()));
+    return set_parameters(s, assignments,
+                          fmt::format("from cycle {}: {}", s.run().cycle(), assignments.front()));
 }
 
 json begin_comparison(Session& s, const Request& r) {

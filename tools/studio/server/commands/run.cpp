@@ -42,9 +42,9 @@ json pause_run(Session& s, const Request&) {
 }
 
 json step_run(Session& s, const Request& r) {
-    pause_run(s, r);
     check_running(s);
     begin_waiting_sampler(s);
+    pause_run(s, r);
     try {
         for (std::uint64_t i = 0; i < r.whole("cycles"); ++i) s.cycle();
     } catch (const engine::RunError& e) {

@@ -219,6 +219,39 @@ TEST_CASE("files are written in folders that exist, under names of their kind") 
     CHECK(f.ask({{"command", "save"}, {"file", f.path("own.iqr")}, {"overwrite", true}})["ok"] == true);
 }
 
+TEST_CASE("a refused command leaves no trace") {
+    OwnFolder f;
+    f.ask({{"command", "step"}, {"cycles", 20}});
+    f.ask({{"command", "sample"}, {"file", f.path("a.csv")}, {"sources", {"P/A"}}});
+    const json before = f.status();
+    for (const char* refused :
+         {R"({"command": "sample", "automatic": true})",
+          R"({"command": "sample", "file": null, "sources": null, "automatic": true})",
+          R"({"command": "sample", "file": "x.csv", "sources": ["Nothing"], "automatic": true})",
+          R"({"command": "seek", "cycle": 3})", R"({"command": "branch", "cycle": 3, "assignments": []})",
+          R"({"command": "branch", "cycle": 3, "assignments": ["P/A.threshold=1"]})",
+          R"({"command": "compare", "cycle": 3})", R"({"command": "open", "system": "/nothing.iqr"})",
+          R"({"command": "world_open", "world": "/nothing.world"})",
+          R"({"command": "speed", "mode": "times", "value": 0})"}) {
+        INFO(refused);
+        CHECK(f.ask(json::parse(refused))["ok"] == false);
+        CHECK(f.status() == before);
+    }
+    f.ask({{"command", "sample_stop"}});
+    const json stopped = f.status();
+    for (const auto& how : {json{{"sources", {"Nothing"}}, {"file", f.path("b.csv")}},
+                            json{{"sources", json::array()}, {"file", f.path("b.csv")}},
+                            json{{"sources", {"P/A"}}, {"file", f.path("none/b.csv")}},
+                            json{{"sources", {"P/A"}}, {"file", f.path("b.pdf")}}}) {
+        json command = how;
+        command["command"] = "sample", command["automatic"] = true;
+        INFO(command.dump());
+        CHECK(f.ask(command)["ok"] == false);
+        CHECK(f.status() == stopped);
+    }
+    f.session->work(1e6);
+}
+
 TEST_CASE("a message that nests too deeply is refused before it is parsed, with its number") {
     OwnFolder f;
     const auto reply_to = [&](const std::string& text) {
