@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/printable.h"
 #include "core/base/utf8.h"
 
 namespace forage {
@@ -33,21 +34,23 @@ std::size_t cut(std::string_view text, std::size_t most) {
     return most;
 }
 
-/// `text` as one line of limited length, without control characters, which must not reach the terminal.
+/// `text` as one line of limited length, for a terminal.
 std::string plain(std::string_view text, std::size_t most) {
     const std::size_t end = cut(text, most);
+    return printable_line(text.substr(0, end)) + (end < text.size() ? "..." : "");
+}
+
+/// A part of a source line with one column per character: blanks for control characters, '?' for bytes that
+/// are not UTF-8.
+std::string in_columns(std::string_view text) {
     std::string out;
-    for (std::size_t i = 0; i < end;) {
-        const std::size_t length = utf8_length(text.substr(i, end - i));
-        if (length == 0)
-            out += '?';
-        else if (std::iscntrl(static_cast<unsigned char>(text[i])))
-            out += ' ';
-        else
-            out += text.substr(i, length);
-        i += std::max<std::size_t>(length, 1);
+    for (std::size_t i = 0; i < text.size();) {
+        const std::size_t length = utf8_length(text.substr(i));
+        const std::string_view character = text.substr(i, std::max<std::size_t>(length, 1));
+        const bool shown = length > 0 && printable_line(character) == character;
+        out += shown ? character : length == 0 ? "?" : " ";
+        i += character.size();
     }
-    if (end < text.size()) out += "...";
     return out;
 }
 
@@ -65,7 +68,7 @@ std::string excerpt(const Location& where) {
         text.remove_prefix(from);
         column -= from;
     }
-    std::string out = fmt::format("      {}\n", plain(text.substr(0, cut(text, width)), width));
+    std::string out = fmt::format("      {}\n", in_columns(text.substr(0, cut(text, width))));
     if (where.column > 0) {
         const auto before = std::count_if(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(column),
                                           std::not_fn(continues_character));

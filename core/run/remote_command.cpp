@@ -30,7 +30,7 @@ constexpr std::array<std::pair<std::string_view, RemoteCommand::Item>, 7> item_t
      {"MODULE", RemoteCommand::Item::process}}};
 
 /// Whether a terminal can show the text: UTF-8 without control characters.
-bool printable(std::string_view text) {
+bool is_printable(std::string_view text) {
     while (!text.empty()) {
         const std::size_t n = utf8_length(text);
         const auto byte = static_cast<unsigned char>(text[0]);
@@ -134,7 +134,7 @@ std::optional<RemoteCommand> parse_remote_command(std::string_view datagram, std
         datagram.remove_suffix(1);
     if (datagram.size() > longest_remote_command)
         problem = fmt::format("it has more than {} bytes", longest_remote_command);
-    else if (!printable(datagram))
+    else if (!is_printable(datagram))
         problem = "it is not UTF-8 without control characters";
     else
         problem = read_command(datagram, out);

@@ -315,6 +315,11 @@ def a_name_that_steers_the_terminal(here):
 
 
 @case
+def a_type_whose_name_steers_the_terminal(here):
+    return Case(["new", "neuron", "a\x1b[2J\u009b31m\x7f"])
+
+
+@case
 def results_with_nothing_to_draw(here):
     (here / "out").mkdir()
     return Case(["plot", "out"])

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <mpi.h>
 
+#include "core/base/print.h"
 #include "core/run/experiment/tables.h"
 #include "tools/api/experiment/experiment.h"
 
@@ -26,7 +27,7 @@ struct Options {
 };
 
 void print_failures(const PartOutcome& out) {
-    for (const auto& [run, reason] : out.failures) fmt::print(stderr, "error: run '{}': {}\n", run, reason);
+    for (const auto& [run, reason] : out.failures) print(stderr, "error: run '{}': {}\n", run, reason);
 }
 
 /// Hands out blocks, which become smaller towards the end, until all ranks have got an empty one. Between the
@@ -53,7 +54,7 @@ void hand_out(const std::vector<std::size_t>& open, int workers, bool quiet) {
         if (count == 0) --left;
         if (!quiet && next * 10 / std::max<std::size_t>(open.size(), 1) > shown) {
             shown = next * 10 / open.size();
-            fmt::print(stderr, "{}/{} runs handed out\n", next, open.size());
+            print(stderr, "{}/{} runs handed out\n", next, open.size());
         }
     }
 }
@@ -92,12 +93,12 @@ std::vector<std::size_t> runs_without_results(const PartResults& found) {
 int execute(const Options& o, int rank, int ranks) {
     Diagnostics diagnostics;
     auto e = prepare_part(o.file, o.directory, o.plugins, diagnostics);
-    if (rank == 0 && (diagnostics.failed() || !o.quiet)) fmt::print(stderr, "{}", format(diagnostics));
+    if (rank == 0 && (diagnostics.failed() || !o.quiet)) print(stderr, "{}", format(diagnostics));
     // All ranks stop when one of them cannot read the files.
     int fine = e.has_value(), all_fine = 0;
     MPI_Allreduce(&fine, &all_fine, 1, MPI_INT, MPI_LAND, MPI_COMM_WORLD);
     if (!all_fine) {
-        if (rank != 0 && !fine) fmt::print(stderr, "rank {} cannot read the experiment\n", rank);
+        if (rank != 0 && !fine) print(stderr, "rank {} cannot read the experiment\n", rank);
         return 2;
     }
     PartFile file(e->directory, fmt::format("mpi-{}", rank));
@@ -120,13 +121,13 @@ int execute(const Options& o, int rank, int ranks) {
     begin_round(*e, true, rank);
     const auto results = merge(*e, diagnostics);
     if (!results) {
-        fmt::print(stderr, "{}", format(diagnostics));
+        print(stderr, "{}", format(diagnostics));
         return 1;
     }
     const bool failed = std::ranges::any_of(*results, [](const auto& r) { return !r.failure.empty(); });
     if (!o.quiet)
-        fmt::print("{}: {} runs\n{}  written: {}, {}\n", o.file, e->runs.size(),
-                   summary_text(e->experiment, e->runs, *results), e->results_file(), e->summary_file());
+        print("{}: {} runs\n{}  written: {}, {}\n", o.file, e->runs.size(),
+              summary_text(e->experiment, e->runs, *results), e->results_file(), e->summary_file());
     return failed;
 }
 
@@ -149,7 +150,7 @@ int parse_and_execute(int argc, char** argv, int rank, int ranks) {
     } catch (const CLI::ParseError& error) {
         const bool fine = error.get_exit_code() == 0;  // a call for help
         if (rank == 0 && fine) app.exit(error);
-        if (rank == 0 && !fine) fmt::print(stderr, "error: {}\n  hint: forage-mpi --help\n", error.what());
+        if (rank == 0 && !fine) print(stderr, "error: {}\n  hint: forage-mpi --help\n", error.what());
         return fine ? 0 : 2;
     }
     return execute(o, rank, ranks);
@@ -167,7 +168,7 @@ int main(int argc, char** argv) {
     try {
         status = forage::cluster::parse_and_execute(argc, argv, rank, ranks);
     } catch (const std::exception& e) {
-        fmt::print(stderr, "error: rank {}: {}\n", rank, e.what());
+        forage::print(stderr, "error: rank {}: {}\n", rank, e.what());
         MPI_Abort(MPI_COMM_WORLD, 1);
     }
     MPI_Finalize();

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/print.h"
 #include "core/run/input_error.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/installation.h"
@@ -18,14 +19,14 @@ int build_plugin(const BuildPluginOptions& o) {
                                        .debug = o.debug,
                                        .installation = installation().string()});
     } catch (const InputError& e) {
-        fmt::print(stderr, "{}", e.what());
+        print(stderr, "{}", e.what());
         return bad_input;
     }
     const auto folder = std::filesystem::path(o.source).parent_path();
-    fmt::print("{}: use it with --plugin {}{}\n", output, output,
-               o.output.empty()
-                   ? fmt::format(", or from systems in '{}' as it is", folder.empty() ? "." : folder.string())
-                   : "");
+    print("{}: use it with --plugin {}{}\n", output, output,
+          o.output.empty()
+              ? fmt::format(", or from systems in '{}' as it is", folder.empty() ? "." : folder.string())
+              : "");
     return fine;
 }
 

@@ -1,9 +1,8 @@
-#include <algorithm>
-#include <cctype>
 #include <cstdio>
 
 #include <fmt/format.h>
 
+#include "core/base/print.h"
 #include "core/engine/simulation.h"
 #include "core/run/explain.h"
 #include "tools/forage/commands.h"
@@ -21,30 +20,25 @@ int check(const RunInput& input) {
     Diagnostics diagnostics;
     const auto loaded = load(input, diagnostics);
     const auto simulation = compile(loaded, input.seed, diagnostics);
-    fmt::print(stderr, "{}", format(diagnostics));
+    print(stderr, "{}", format(diagnostics));
     if (!simulation) {
-        std::string name =
-            input.system;  // it may contain control characters, which must not reach the terminal
-        std::replace_if(
-            name.begin(), name.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
-        fmt::print(stderr, "{}: {}, {}\n", name,
-                   counted(static_cast<std::size_t>(diagnostics.errors()), "error"),
-                   counted(static_cast<std::size_t>(diagnostics.warnings()), "warning"));
+        print(stderr, "{}: {}, {}\n", printable_line(input.system),
+              counted(static_cast<std::size_t>(diagnostics.errors()), "error"),
+              counted(static_cast<std::size_t>(diagnostics.warnings()), "warning"));
         return bad_input;
     }
     std::size_t cells = 0, synapses = 0;
     const auto& layout = simulation->layout();
     for (const auto& g : layout.groups) cells += static_cast<std::size_t>(g.shape.cells);
     for (int c = 0; c < std::ssize(layout.connections); ++c) synapses += simulation->synapses(c);
-    fmt::print("{}: fine: {}, {}, {}, {}, {}{}\n", input.system,
-               counted(loaded->system.processes.size(), "process", "processes"),
-               counted(layout.groups.size(), "group"), counted(cells, "cell"),
-               counted(layout.connections.size(), "connection"), counted(synapses, "synapse"),
-               diagnostics.warnings()
-                   ? ", " + counted(static_cast<std::size_t>(diagnostics.warnings()), "warning")
-                   : "");
-    for (const auto& note : wiring_notes(loaded->system, layout)) fmt::print("  note: {}\n", note);
-    if (loaded->world) fmt::print("{}", bug::describe(*loaded->world));
+    print("{}: fine: {}, {}, {}, {}, {}{}\n", printable_line(input.system),
+          counted(loaded->system.processes.size(), "process", "processes"),
+          counted(layout.groups.size(), "group"), counted(cells, "cell"),
+          counted(layout.connections.size(), "connection"), counted(synapses, "synapse"),
+          diagnostics.warnings() ? ", " + counted(static_cast<std::size_t>(diagnostics.warnings()), "warning")
+                                 : "");
+    for (const auto& note : wiring_notes(loaded->system, layout)) print("  note: {}\n", note);
+    if (loaded->world) print("{}", bug::describe(*loaded->world));
     return fine;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/output_files.h"
+#include "core/base/print.h"
 #include "core/base/separated.h"
 #include "core/model/build.h"
 #include "core/model/edit.h"
@@ -110,10 +111,10 @@ int convert(const ConvertOptions& options) {
     check_output(options.output, "copy.iqr", diagnostics);
     std::string notes;
     const std::string text = converted(options, notes, diagnostics);
-    fmt::print(stderr, "{}", format(diagnostics));
+    print(stderr, "{}", format(diagnostics));
     if (diagnostics.failed()) return bad_input;
     write_file(options.output, text);
-    fmt::print("{}", notes);
+    print("{}", notes);
     return fine;
 }
 

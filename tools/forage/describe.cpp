@@ -1,7 +1,6 @@
 #include <cstdio>
 
-#include <fmt/format.h>
-
+#include "core/base/print.h"
 #include "tools/api/describe/system_description.h"
 #include "tools/forage/commands.h"
 
@@ -11,9 +10,9 @@ int describe(const DescribeOptions& options) {
     Diagnostics diagnostics;
     const auto loaded = load(options.input, diagnostics);
     const auto compiled = compile(loaded, options.input.seed, diagnostics);
-    fmt::print(stderr, "{}", format(diagnostics));
+    print(stderr, "{}", format(diagnostics));
     if (!compiled) return bad_input;
-    fmt::print("{}", in_format(forage::describe(loaded->system, &*compiled), options.format));
+    print("{}", in_format(forage::describe(loaded->system, &*compiled), options.format));
     return fine;
 }
 

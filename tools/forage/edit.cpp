@@ -1,6 +1,6 @@
-#include <fmt/format.h>
 #include <forage/system.h>
 
+#include "core/base/print.h"
 #include "tools/api/edit/json_text.h"
 #include "tools/api/open/sources.h"
 #include "tools/forage/commands.h"
@@ -15,11 +15,11 @@ int edit(const EditOptions& o) try {
     if (!is_json) check_json(operations, o.operations);  // mistakes are in this file
     Diagnostics diagnostics;
     const auto made = edit_file(o.file, operations, o.output, o.plugins, &diagnostics);
-    fmt::print(stderr, "{}", format(diagnostics));
-    for (const auto& ids : elements_of(made)) fmt::print("{}\n", ids);
+    print(stderr, "{}", format(diagnostics));
+    for (const auto& ids : elements_of(made)) print("{}\n", ids);
     return fine;
 } catch (const InputError& e) {
-    fmt::print(stderr, "{}", e.what());
+    print(stderr, "{}", e.what());
     return bad_input;
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number.h"
+#include "core/base/print.h"
 #include "core/run/experiment/rounds.h"
 #include "core/run/experiment/tables.h"
 #include "tools/cluster/slurm.h"
@@ -33,12 +34,12 @@ std::string progress_text(const ExperimentCallbacks::Progress& p) {
 int print_findings(const std::string& system, std::span<const Finding> all) {
     const auto met = std::ranges::count_if(all, &Finding::met);
     if (all.empty())
-        fmt::print("{}: this exercise requires nothing of a system\n", system);
+        print("{}: this exercise requires nothing of a system\n", system);
     else
-        fmt::print("{}: {} of {} requirements are met\n", system, met, all.size());
+        print("{}: {} of {} requirements are met\n", system, met, all.size());
     for (const auto& f : all) {
-        fmt::print("  {}  {}\n", f.met ? "yes" : "no ", f.what);
-        if (!f.advice.empty()) fmt::print("       {}\n", f.advice);
+        print("  {}  {}\n", f.met ? "yes" : "no ", f.what);
+        if (!f.advice.empty()) print("       {}\n", f.advice);
     }
     return met == std::ssize(all) ? fine : run_failed;
 }
@@ -62,8 +63,8 @@ void begin(const PreparedExperiment& e) {
 
 /// Tells that the runs were interrupted. Returns the exit status.
 int print_stopped() {
-    fmt::print(stderr, "stopped {}; the same command continues with the unfinished runs\n",
-               stopped_by(noted_signal()));
+    print(stderr, "stopped {}; the same command continues with the unfinished runs\n",
+          stopped_by(noted_signal()));
     return 128 + noted_signal();
 }
 
@@ -72,22 +73,22 @@ int print_results(const ExperimentOptions& o, const PreparedExperiment& e,
                   const std::vector<RunResult>& results) {
     const auto& runs = e.runs;
     if (const auto diverged = divergence_summary(runs, results); !diverged.empty())
-        fmt::print(stderr, "warning: {}\n", diverged);
-    if (!o.quiet) fmt::print(stderr, "{}", format(warnings_of(runs, results)));
+        print(stderr, "warning: {}\n", diverged);
+    if (!o.quiet) print(stderr, "{}", format(warnings_of(runs, results)));
     if (!o.quiet)
-        for (const auto& note : event_notes(results)) fmt::print(stderr, "note: {}\n", note);
+        for (const auto& note : event_notes(results)) print(stderr, "note: {}\n", note);
     if (const auto note = adaptation_note(e.experiment, runs, results); !note.empty() && !o.quiet)
-        fmt::print(stderr, "note: {}\n", note);
+        print(stderr, "note: {}\n", note);
     std::size_t failures = 0;
     for (std::size_t i = 0; i < runs.size(); ++i)
         if (!results[i].failure.empty()) {
             ++failures;
-            fmt::print(stderr, "error: run '{}': {}\n", runs.name(i), results[i].failure);
+            print(stderr, "error: run '{}': {}\n", runs.name(i), results[i].failure);
         }
     if (!o.quiet && o.system.empty())
-        fmt::print("{}: {} runs{}\n{}  written: {}, {}\n", o.file, runs.size(),
-                   failures ? fmt::format(", {} failed", failures) : "",
-                   summary_text(e.experiment, runs, results), e.results_file(), e.summary_file());
+        print("{}: {} runs{}\n{}  written: {}, {}\n", o.file, runs.size(),
+              failures ? fmt::format(", {} failed", failures) : "", summary_text(e.experiment, runs, results),
+              e.results_file(), e.summary_file());
     return failures ? run_failed : fine;
 }
 
@@ -108,24 +109,24 @@ int execute_shard(const ExperimentOptions& o, PreparedExperiment& e) {
     Progress progress(!o.quiet);
     const auto out = run_part(e, *parse_shard(o.shard), o.jobs, o.fresh, callbacks_of(progress));
     progress.clear();
-    for (const auto& [run, reason] : out.failures) fmt::print(stderr, "error: run '{}': {}\n", run, reason);
+    for (const auto& [run, reason] : out.failures) print(stderr, "error: run '{}': {}\n", run, reason);
     if (!out.finished) return print_stopped();
-    if (!o.quiet) fmt::print("{}: part {}: {}{} runs executed now\n", o.file, o.shard, round_of(e), out.runs);
+    if (!o.quiet) print("{}: part {}: {}{} runs executed now\n", o.file, o.shard, round_of(e), out.runs);
     return out.failures.empty() ? fine : run_failed;
 }
 
 int print_status(PreparedExperiment& e) {
     const PartResults found = read_results(e);
     const std::size_t done = found.finished(), failed = found.failed(), left = e.runs.size() - done - failed;
-    fmt::print("{}{}/{} runs", round_of(e), done + failed, e.runs.size());
-    if (failed > 0) fmt::print(", {} failed", failed);
+    print("{}{}/{} runs", round_of(e), done + failed, e.runs.size());
+    if (failed > 0) print(", {} failed", failed);
     if (found.rate > 0) {
-        fmt::print(", {} runs/s", plain_number(found.rate, 3));
-        if (left > 0) fmt::print(", {} left", duration_text(static_cast<double>(left) / found.rate));
+        print(", {} runs/s", plain_number(found.rate, 3));
+        if (left > 0) print(", {} left", duration_text(static_cast<double>(left) / found.rate));
     }
-    fmt::print("\n");
-    if (found.damaged > 0) fmt::print("{} lines of parts cannot be read\n", found.damaged);
-    for (const auto& job : cluster::submitted_jobs(e.directory)) fmt::print("{}\n", job);
+    print("\n");
+    if (found.damaged > 0) print("{} lines of parts cannot be read\n", found.damaged);
+    for (const auto& job : cluster::submitted_jobs(e.directory)) print("{}\n", job);
     return fine;
 }
 
@@ -134,8 +135,8 @@ int submit(const ExperimentOptions& o, PreparedExperiment& e) {
     if (e.experiment.adaptation) read_results(e), job.round = e.round;
     Diagnostics diagnostics;
     const auto text = cluster::submit(job, e.runs.size(), o.dry_run, diagnostics);
-    fmt::print(stderr, "{}", format(diagnostics));
-    fmt::print("{}", text);
+    print(stderr, "{}", format(diagnostics));
+    print("{}", text);
     return diagnostics.failed() ? run_failed : fine;
 }
 
@@ -143,7 +144,7 @@ int submit(const ExperimentOptions& o, PreparedExperiment& e) {
 int experiment_in_parts(const ExperimentOptions& o) {
     Diagnostics diagnostics;
     auto e = prepare_part(o.file, o.directory, o.plugins, diagnostics);
-    if (diagnostics.failed() || !o.quiet) fmt::print(stderr, "{}", format(diagnostics));
+    if (diagnostics.failed() || !o.quiet) print(stderr, "{}", format(diagnostics));
     if (!e) return bad_input;
     if (!o.shard.empty()) return execute_shard(o, *e);
     if (o.status) return print_status(*e);
@@ -153,11 +154,11 @@ int experiment_in_parts(const ExperimentOptions& o) {
     const auto results = merge(*e, merging);
     if (!results && o.after_round > 0 && e->round > o.after_round) {
         Diagnostics submitting;
-        fmt::print("{}", cluster::submit_round(e->directory, e->round, submitting));
-        fmt::print(stderr, "{}", format(submitting));
+        print("{}", cluster::submit_round(e->directory, e->round, submitting));
+        print(stderr, "{}", format(submitting));
         return submitting.failed() ? run_failed : fine;
     }
-    fmt::print(stderr, "{}", format(merging));
+    print(stderr, "{}", format(merging));
     return results ? print_results(o, *e, *results) : run_failed;
 }
 
@@ -167,7 +168,7 @@ int experiment(const ExperimentOptions& o) {
     if (!o.shard.empty() || o.merge || o.status || o.slurm) return experiment_in_parts(o);
     Diagnostics diagnostics;
     auto wanted = prepare_experiment(o.file, o.directory, o.plugins, diagnostics, o.system);
-    if (diagnostics.failed() || !o.quiet) fmt::print(stderr, "{}", format(diagnostics));
+    if (diagnostics.failed() || !o.quiet) print(stderr, "{}", format(diagnostics));
     if (!wanted) return bad_input;
     begin(*wanted);
     wanted->formats = formats_of(o);
@@ -178,7 +179,7 @@ int experiment(const ExperimentOptions& o) {
     const int status = print_results(o, *wanted, *results);
     if (status != fine || o.system.empty()) return status;
     const int met = print_findings(o.system, findings(*wanted, *results, diagnostics));
-    fmt::print("  results in {}\n", std::filesystem::path(wanted->results_file()).parent_path().string());
+    print("  results in {}\n", std::filesystem::path(wanted->results_file()).parent_path().string());
     return met;
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/diagnostic.h"
+#include "core/base/print.h"
 #include "core/model/lookup.h"
 #include "core/run/input_error.h"
 #include "tools/forage/commands.h"
@@ -18,6 +19,7 @@
 namespace {
 
 using namespace forage::tool;
+using forage::print;
 
 /// The word that the first unknown word of the command line probably means; empty when all words are known.
 std::string suggestion(const CLI::App& app, int argc, char** argv) {
@@ -155,10 +157,10 @@ int program(int argc, char** argv) {
 
     try {
         if (argc == 1) {
-            fmt::print(stderr, "{}", app.help());
+            print(stderr, "{}", app.help());
             return bad_input;
         }
-        if (argc == 2 && std::string_view(argv[1]) == "help") return fmt::print("{}", app.help()), fine;
+        if (argc == 2 && std::string_view(argv[1]) == "help") return print("{}", app.help()), fine;
         auto words = current_names({argv + 1, argv + argc});
         std::ranges::reverse(words);  // as CLI11 takes them
         app.parse(words);
@@ -166,9 +168,9 @@ int program(int argc, char** argv) {
         const bool no_command = app.get_subcommands().empty() && !std::string_view(argv[1]).starts_with("-");
         if (e.get_exit_code() == 0 && !no_command) return app.exit(e);
         const std::string meant = suggestion(app, argc, argv);
-        fmt::print(stderr, "error: {}\n  hint: {}\n",
-                   no_command ? fmt::format("there is no command '{}'", argv[1]) : e.what(),
-                   !meant.empty() ? meant : help_of(app));
+        print(stderr, "error: {}\n  hint: {}\n",
+              no_command ? fmt::format("there is no command '{}'", argv[1]) : e.what(),
+              !meant.empty() ? meant : help_of(app));
         return bad_input;
     }
     try {
@@ -188,17 +190,17 @@ int program(int argc, char** argv) {
         if (app.got_subcommand("edit")) return edit(edit_options);
         if (app.got_subcommand("view")) return view(directory);
         if (app.got_subcommand("studio")) return studio(argv);
-        if (app.got_subcommand("man")) return fmt::print("{}", man_page(app)), fine;
-        if (app.got_subcommand("completion")) return fmt::print("{}", completion(app, shell)), fine;
+        if (app.got_subcommand("man")) return print("{}", man_page(app)), fine;
+        if (app.got_subcommand("completion")) return print("{}", completion(app, shell)), fine;
         if (app.got_subcommand("new")) return create(new_options);
         if (app.got_subcommand("build-plugin")) return build_plugin(build_options);
         if (app.got_subcommand("schema")) return schema(schema_options);
         return types(type, plugins);
     } catch (const forage::InputError& e) {  // its text has the words "error" and "hint"
-        fmt::print(stderr, "{}", e.what());
+        print(stderr, "{}", e.what());
         return run_failed;
     } catch (const std::exception& e) {
-        fmt::print(stderr, "error: {}\n", e.what());
+        print(stderr, "error: {}\n", e.what());
         return run_failed;
     }
 }

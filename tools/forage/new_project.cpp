@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/output_files.h"
+#include "core/base/print.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/templates.h"
 
@@ -45,7 +46,7 @@ std::string filled(std::string text, const std::string& name, const std::string&
 }
 
 int refused(const std::string& what, const std::string& hint) {
-    fmt::print(stderr, "error: {}\n  hint: {}\n", what, hint);
+    print(stderr, "error: {}\n  hint: {}\n", what, hint);
     return bad_input;
 }
 
@@ -69,12 +70,12 @@ int new_system(const std::string& name, bool robot) {
               : write_new({{name + ".iqr", text("system.iqr")}});
     if (status != fine) return status;
     if (robot)
-        fmt::print(
+        print(
             "{0}.iqr: a robot that avoids walls and finds a light, in {0}.world. Next:\n"
             "  forage run {0}.iqr --world {0}.world --seconds 60\n",
             name);
     else
-        fmt::print(
+        print(
             "{0}.iqr: two groups and two connections. Next:\n"
             "  forage run {0}.iqr --seconds 4 --plot time:Brain/Cells\n",
             name);
@@ -96,7 +97,7 @@ int new_project(const std::string& kind, const std::string& name) {
         {"README.md", "README.md"}};
     for (const auto& [file, source] : files)
         write_file(name + "/" + file, filled(template_text(source), name, kind));
-    fmt::print(
+    print(
         "{}: a plugin with the {} type {}{}. Next:\n"
         "  cd {}\n  cmake -B build && cmake --build build && ctest --test-dir build --output-on-failure\n"
         "  forage run example.iqr --plugin build/plugins --cycles 20 --record Example/Cells --plot "

@@ -1,9 +1,8 @@
 #include <cstdio>
 #include <optional>
 
-#include <fmt/format.h>
-
 #include "core/base/named_file.h"
+#include "core/base/print.h"
 #include "tools/api/experiment/results.h"
 #include "tools/forage/commands.h"
 
@@ -24,8 +23,8 @@ int plot(const PlotOptions& o) {
     if (results)
         for (const auto& file : draw(*results, o.plots, o.directory, *plot::format_of("x." + o.plot_format),
                                      diagnostics, o.where))
-            fmt::print("{}\n", file);
-    fmt::print(stderr, "{}", format(diagnostics));
+            print("{}\n", file);
+    print(stderr, "{}", format(diagnostics));
     return diagnostics.failed() ? bad_input : fine;
 }
 

@@ -9,6 +9,8 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "core/base/printable.h"
+
 namespace forage::tool {
 
 namespace {
@@ -44,7 +46,7 @@ void Progress::draw(double part, const std::string& what) {
     const int filled = static_cast<int>(done * width);
     std::string line = width < 5 ? text.substr(0, static_cast<std::size_t>(columns))
                                  : fmt::format("[{:=<{}}{:{}}] {}", "", filled, "", width - filled, text);
-    fmt::print(stderr, "\r{}\x1b[K", line);
+    fmt::print(stderr, "\r{}\x1b[K", printable(line));
     std::fflush(stderr);
 }
 

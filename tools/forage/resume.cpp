@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/print.h"
 #include "core/observe/row_file.h"
 #include "core/run/checkpoint_file.h"
 #include "tools/forage/commands.h"
@@ -75,10 +76,10 @@ int resume(const ResumeOptions& o, const RunParser& parse) {
     std::vector<std::string> paths = {given.string()};
     if (whole_directory) paths = {checkpoint_path(directory), previous_checkpoint_path(directory)};
     if (whole_directory && !fs::exists(paths[0]) && !fs::exists(paths[1])) {
-        fmt::print(stderr, "error: there is no checkpoint in '{}'\n  hint: {}\n", o.path,
-                   fs::exists(given / "run.json")
-                       ? "the run is finished, or was made without --checkpoint-every"
-                       : "a run writes checkpoints with --checkpoint-every, into its directory (-o)");
+        print(stderr, "error: there is no checkpoint in '{}'\n  hint: {}\n", o.path,
+              fs::exists(given / "run.json")
+                  ? "the run is finished, or was made without --checkpoint-every"
+                  : "a run writes checkpoints with --checkpoint-every, into its directory (-o)");
         return bad_input;
     }
     std::string refused;
@@ -96,11 +97,11 @@ int resume(const ResumeOptions& o, const RunParser& parse) {
             Diagnostics diagnostics;
             const Sources sources = read_sources(options.spec.input, diagnostics);
             auto prepared = restore(*found, options.spec, sources, diagnostics);
-            if (diagnostics.failed() || !options.quiet) fmt::print(stderr, "{}", format(diagnostics));
+            if (diagnostics.failed() || !options.quiet) print(stderr, "{}", format(diagnostics));
             if (!prepared) return bad_input;
-            if (!refused.empty()) fmt::print(stderr, "warning: {}\n", refused);
+            if (!refused.empty()) print(stderr, "warning: {}\n", refused);
             if (!refused.empty() || !options.quiet)
-                fmt::print(stderr, "continuing from cycle {}\n", prepared->run.cycle());
+                print(stderr, "continuing from cycle {}\n", prepared->run.cycle());
             // A newer checkpoint that is damaged or not wanted must not be kept instead of this one.
             if (path != checkpoint_path(directory)) fs::remove(checkpoint_path(directory));
             return run_to_end(options, *prepared);
@@ -111,10 +112,10 @@ int resume(const ResumeOptions& o, const RunParser& parse) {
         } catch (const observe::ShortFile& e) {
             refused += fmt::format("{}checkpoint '{}': {}", refused.empty() ? "" : "\n", path, e.what());
         }
-    fmt::print(stderr,
-               "error: {}\n  hint: start the run again; name the directory of results of a run with "
-               "--checkpoint-every\n",
-               refused);
+    print(stderr,
+          "error: {}\n  hint: start the run again; name the directory of results of a run with "
+          "--checkpoint-every\n",
+          refused);
     return bad_input;
 }
 

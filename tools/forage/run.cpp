@@ -1,9 +1,8 @@
 #include <cstdio>
 #include <thread>
 
-#include <fmt/format.h>
-
 #include "core/base/number.h"
+#include "core/base/print.h"
 #include "core/run/checkpoint_file.h"
 #include "core/run/explain.h"
 #include "tools/forage/commands.h"
@@ -22,12 +21,12 @@ int run(const RunOptions& o) {
     const Sources sources = read_sources(spec.input, diagnostics);
     auto prepared = prepare(sources, spec, diagnostics);
     if (prepared && !spec.directory.empty()) clear_directory(spec, diagnostics);
-    if (diagnostics.failed() || !o.quiet) fmt::print(stderr, "{}", format(diagnostics));
+    if (diagnostics.failed() || !o.quiet) print(stderr, "{}", format(diagnostics));
     if (!prepared || diagnostics.failed()) return bad_input;
     try {
         begin(*prepared);
     } catch (const std::exception& e) {
-        fmt::print(stderr, "error: {}\n  hint: choose another directory for the results with -o\n", e.what());
+        print(stderr, "error: {}\n  hint: choose another directory for the results with -o\n", e.what());
         return bad_input;
     }
     return run_to_end(o, *prepared);
@@ -44,24 +43,23 @@ int run_to_end(const RunOptions& o, PreparedRun& prepared) {
     callbacks.takes_long = [&](double seconds) {
         if (o.quiet) return;
         progress.clear();
-        fmt::print(stderr, "note: this run will take about {}; Ctrl-C stops it and {}\n",
-                   duration_text(seconds),
-                   prepared.checkpoints ? "writes a checkpoint, from which 'forage resume' continues"
-                                        : "keeps its results up to there");
+        print(stderr, "note: this run will take about {}; Ctrl-C stops it and {}\n", duration_text(seconds),
+              prepared.checkpoints ? "writes a checkpoint, from which 'forage resume' continues"
+                                   : "keeps its results up to there");
     };
     callbacks.diverged = [&](const std::string& what) {
         progress.clear();
-        fmt::print(stderr, "warning: {}\n  hint: --on-nan stop ends the run there\n", what);
+        print(stderr, "warning: {}\n  hint: --on-nan stop ends the run there\n", what);
     };
     callbacks.commanded = [&](const std::string& what) {
         if (o.quiet) return;
         progress.clear();
-        fmt::print(stderr, "remote: {}\n", what);
+        print(stderr, "remote: {}\n", what);
     };
     if (prepared.remote && !o.quiet) {
-        fmt::print(stderr, "remote: commands are received at {}\n", prepared.remote->address());
+        print(stderr, "remote: commands are received at {}\n", prepared.remote->address());
         if (prepared.remote->paused())  // it was when the checkpoint was written
-            fmt::print(stderr, "remote: the run is stopped; cmd:start continues it\n");
+            print(stderr, "remote: the run is stopped; cmd:start continues it\n");
         std::fflush(stderr);
     }
     callbacks.after_cycle = [&] {
@@ -83,18 +81,18 @@ int run_to_end(const RunOptions& o, PreparedRun& prepared) {
     const bool finished = outcome.problems.empty() && !noted_signal();
     if (prepared.checkpoints && finished) remove_checkpoints(directory);
     const bool resumable = prepared.checkpoints && !finished && has_checkpoint(directory);
-    if (!o.quiet) fmt::print("{}", summary(prepared, outcome, resumable));
-    if (!o.quiet) fmt::print(stderr, "{}", format(outcome.files.warnings()));
+    if (!o.quiet) print("{}", summary(prepared, outcome, resumable));
+    if (!o.quiet) print(stderr, "{}", format(outcome.files.warnings()));
     if (prepared.statistics) {
-        fmt::print("\n{}", activity_table(run.layout(), *prepared.statistics));
-        fmt::print("\n");
-        for (const auto& note : explanation(prepared)) fmt::print("- {}\n", note);
+        print("\n{}", activity_table(run.layout(), *prepared.statistics));
+        print("\n");
+        for (const auto& note : explanation(prepared)) print("- {}\n", note);
     }
-    for (const auto& problem : outcome.problems) fmt::print(stderr, "error: {}\n", problem);
+    for (const auto& problem : outcome.problems) print(stderr, "error: {}\n", problem);
     if (!outcome.problems.empty()) return run_failed;
     if (noted_signal()) return 128 + noted_signal();
     if (outcome.stopped.empty()) return fine;
-    fmt::print(stderr, "error: {}\n", outcome.stopped);
+    print(stderr, "error: {}\n", outcome.stopped);
     return run_failed;
 }
 

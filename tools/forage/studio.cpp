@@ -1,9 +1,9 @@
 #include <cerrno>
 #include <cstring>
 
-#include <fmt/format.h>
 #include <unistd.h>
 
+#include "core/base/print.h"
 #include "tools/forage/commands.h"
 #include "tools/forage/installation.h"
 
@@ -12,8 +12,8 @@ namespace forage::tool {
 int studio(char** arguments) {
     const std::string server = installation() / "bin/forage-studio";
     execv(server.c_str(), arguments);
-    fmt::print(stderr, "error: cannot start '{}': {}\n  hint: ./tools/open-studio builds the studio\n",
-               server, std::strerror(errno));
+    print(stderr, "error: cannot start '{}': {}\n  hint: ./tools/open-studio builds the studio\n", server,
+          std::strerror(errno));
     return run_failed;
 }
 

@@ -6,8 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include <fmt/format.h>
-
+#include "core/base/print.h"
 #include "core/model/lookup.h"
 #include "tools/api/experiment/results.h"
 #include "tools/forage/commands.h"
@@ -32,11 +31,11 @@ int tutorial(const TutorialOptions& o) {
     const fs::path folder = installation() / "share/forage/systems/tutorial";
     const auto all = read_tutorial(folder, diagnostics);
     if (diagnostics.failed()) {
-        fmt::print(stderr, "{}", format(diagnostics));
+        print(stderr, "{}", format(diagnostics));
         return bad_input;
     }
     if (all.empty()) {
-        fmt::print(stderr, "error: there are no exercises in '{}'\n", folder.string());
+        print(stderr, "error: there are no exercises in '{}'\n", folder.string());
         return bad_input;
     }
     const auto in_part = [&](const auto& e) {
@@ -44,20 +43,19 @@ int tutorial(const TutorialOptions& o) {
     };
     const auto first = std::ranges::find_if(all, in_part);
     if (first != all.end() && !o.system.empty()) {
-        fmt::print(stderr,
-                   "error: which exercise?\n  hint: 'forage tutorial {} --system FILE' checks a file for the "
-                   "first one; without --system, the exercises are listed\n",
-                   first->number);
+        print(stderr,
+              "error: which exercise?\n  hint: 'forage tutorial {} --system FILE' checks a file for the "
+              "first one; without --system, the exercises are listed\n",
+              first->number);
         return bad_input;
     }
     if (first != all.end()) {
         for (const auto& e : all) {
             if (!in_part(e)) continue;
-            fmt::print("{:<5} {}\n", e.number, e.title);
-            if (!e.start.empty())
-                fmt::print("      start {}, solution {}\n", shown(e.start), shown(e.solution));
+            print("{:<5} {}\n", e.number, e.title);
+            if (!e.start.empty()) print("      start {}, solution {}\n", shown(e.start), shown(e.solution));
         }
-        fmt::print(
+        print(
             "\nforage tutorial {} runs the first one; with --system FILE, on a file of your own. "
             "docs/tutorial has the text.\n",
             first->number);
@@ -69,25 +67,25 @@ int tutorial(const TutorialOptions& o) {
     if (wanted == all.end()) {
         std::vector<std::string> numbers;
         for (const auto& e : all) numbers.push_back(e.number);
-        fmt::print(stderr, "error: there is no exercise '{}'\n  hint: {}\n", o.exercise,
-                   suggest(o.exercise, numbers));
+        print(stderr, "error: there is no exercise '{}'\n  hint: {}\n", o.exercise,
+              suggest(o.exercise, numbers));
         return bad_input;
     }
     const std::string own = o.system.empty() ? "" : "-own";
     const std::string directory =
         o.directory.empty() ? "forage-out/tutorial/" + wanted->number + own : o.directory;
-    fmt::print("{} {}\n", wanted->number, wanted->title);
+    print("{} {}\n", wanted->number, wanted->title);
     std::fflush(stdout);
     const int status =
         experiment({.file = wanted->file.string(), .directory = directory, .system = o.system});
     if (status != fine || !o.system.empty()) return status;
-    fmt::print("look at\n{}", wanted->look_at);
+    print("look at\n{}", wanted->look_at);
     std::vector<std::string> pictures;
     for (const auto& picture : pictures_below(directory)) pictures.push_back(directory + "/" + picture);
     if (pictures.size() > 10)
-        fmt::print("  the {} pictures: forage view {}\n", pictures.size(), directory);
+        print("  the {} pictures: forage view {}\n", pictures.size(), directory);
     else
-        for (const auto& picture : pictures) fmt::print("  {}\n", picture);
+        for (const auto& picture : pictures) print("  {}\n", picture);
     return fine;
 }
 

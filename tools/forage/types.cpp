@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/print.h"
 #include "core/xml/schema.h"
 #include "tools/forage/commands.h"
 
@@ -19,8 +20,8 @@ class Rows {
     }
     void print() const {
         if (rows_.empty()) return;
-        fmt::print("\n{}\n", title_);
-        for (const auto& [name, text] : rows_) fmt::print("  {:<{}}  {}\n", name, width_, text);
+        forage::print("\n{}\n", title_);
+        for (const auto& [name, text] : rows_) forage::print("  {:<{}}  {}\n", name, width_, text);
     }
 
   private:
@@ -31,7 +32,7 @@ class Rows {
 
 template <class Type>
 void describe(const Type& type) {
-    fmt::print("{} ({})\n{}\n", type.name, type.label, type.doc);
+    print("{} ({})\n{}\n", type.name, type.label, type.doc);
     Rows rows("Parameters");
     for (const auto& p : type.parameters) {
         const std::string value = to_text(p.default_value);
@@ -78,13 +79,13 @@ void describe_ports(const ModuleType& type) {
         }
         rows.print();
     }
-    if (type.any_ports) fmt::print("\nCross references of any name.\n");
+    if (type.any_ports) print("\nCross references of any name.\n");
 }
 
 template <class Map>
 void list(std::string_view kind, const Map& types) {
-    fmt::print("{}\n", kind);
-    for (const auto& [name, type] : types) fmt::print("  {:<28} {}\n", name, type.doc);
+    print("{}\n", kind);
+    for (const auto& [name, type] : types) print("  {:<28} {}\n", name, type.doc);
 }
 
 /// The types that ship with Forage and those of plugins. Prints an error and returns nothing when a plugin
@@ -92,7 +93,7 @@ void list(std::string_view kind, const Map& types) {
 std::optional<Registry> registry_with(const std::vector<std::string>& plugins) {
     Diagnostics diagnostics;
     const auto loaded = load_plugins(plugins, "", diagnostics);
-    fmt::print(stderr, "{}", format(diagnostics));
+    print(stderr, "{}", format(diagnostics));
     if (diagnostics.failed()) return std::nullopt;
     return known_types(loaded);
 }
@@ -100,10 +101,10 @@ std::optional<Registry> registry_with(const std::vector<std::string>& plugins) {
 }  // namespace
 
 int schema(const SchemaOptions& options) {
-    if (options.of_experiments) return fmt::print("{}", xml::relax_ng_of_experiments()), fine;
+    if (options.of_experiments) return print("{}", xml::relax_ng_of_experiments()), fine;
     const auto registry = registry_with(options.plugins);
     if (!registry) return bad_input;
-    fmt::print("{}", options.markdown ? xml::markdown_tables(*registry) : xml::relax_ng(*registry));
+    print("{}", options.markdown ? xml::markdown_tables(*registry) : xml::relax_ng(*registry));
     return fine;
 }
 
@@ -115,7 +116,7 @@ int types(const std::string& name, const std::vector<std::string>& plugins) {
         list("Neurons", registry.neurons());
         list("Synapses", registry.synapses());
         list("Modules", registry.modules());
-        fmt::print("'forage types NAME' describes one.\n");
+        print("'forage types NAME' describes one.\n");
         return fine;
     }
     if (const auto* neuron = registry.neuron(name)) {
@@ -140,7 +141,7 @@ int types(const std::string& name, const std::vector<std::string>& plugins) {
     std::vector<std::string> all = names(registry.neurons());
     for (const auto& n : names(registry.synapses())) all.push_back(n);
     for (const auto& n : names(registry.modules())) all.push_back(n);
-    fmt::print(stderr, "error: there is no type '{}'\n  hint: {}\n", name, suggest(name, all));
+    print(stderr, "error: there is no type '{}'\n  hint: {}\n", name, suggest(name, all));
     return bad_input;
 }
 

@@ -1,8 +1,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include <fmt/format.h>
-
+#include "core/base/print.h"
 #include "tools/api/experiment/results.h"
 #include "tools/forage/commands.h"
 
@@ -10,16 +9,15 @@ namespace forage::tool {
 
 int view(const std::string& directory) {
     if (!std::filesystem::is_directory(directory)) {
-        fmt::print(
-            stderr,
-            "error: '{}' is not a directory\n  hint: name a directory of results, such as forage-out\n",
-            directory);
+        print(stderr,
+              "error: '{}' is not a directory\n  hint: name a directory of results, such as forage-out\n",
+              directory);
         return bad_input;
     }
     Diagnostics diagnostics;
     const std::string file = write_page(directory, diagnostics);
-    fmt::print(stderr, "{}", format(diagnostics));
-    fmt::print("{}\nOpen it with a browser: xdg-open '{}'\n", file, file);
+    print(stderr, "{}", format(diagnostics));
+    print("{}\nOpen it with a browser: xdg-open '{}'\n", file, file);
     return diagnostics.failed() ? bad_input : fine;
 }
 

@@ -6,6 +6,7 @@
 #include "bug_interface/simulation/data_sheet.h"
 #include "bug_interface/world/sdf_reader.h"
 #include "core/base/output_files.h"
+#include "core/base/print.h"
 #include "tools/forage/commands.h"
 #include "tools/plot/robot_plot.h"
 #include "tools/plot/world_map.h"
@@ -43,18 +44,18 @@ int world(const WorldCommand& o) {
             diagnostics.error({}, fmt::format("--robot: there is no robot '{}' in '{}'", o.robot, o.file),
                               suggest(o.robot, made->robot_names()));
     }
-    fmt::print(stderr, "{}", format(diagnostics));
+    print(stderr, "{}", format(diagnostics));
     if (diagnostics.failed() || !made) return bad_input;
-    fmt::print("{}", sheet ? bug::data_sheet(*made, robot) : bug::describe(*made));
+    print("{}", sheet ? bug::data_sheet(*made, robot) : bug::describe(*made));
     write_file(picture, plot::render(sheet ? plot::robot_plot(*made, robot)
                                            : plot::world_plot(
                                                  *made, std::filesystem::path(o.file).filename().string()),
                                      *format_of_picture));
     if (sheet) {
-        fmt::print("\n![The robot {}]({})\n", o.robot, picture);
+        print("\n![The robot {}]({})\n", o.robot, picture);
         return fine;
     }
-    fmt::print("  {:<11} {}\n", "picture", picture);
+    print("  {:<11} {}\n", "picture", picture);
     return fine;
 }
 

@@ -10,6 +10,7 @@
 #include <spawn.h>
 #include <unistd.h>
 
+#include "core/base/print.h"
 #include "core/run/input_error.h"
 #include "tools/forage/installation.h"
 #include "tools/forage/options.h"
@@ -59,12 +60,12 @@ bool open_browser(std::string file) {
 }
 
 void print_address(const studio::Ready& ready) {
-    fmt::print(stderr, "{}", format(ready.mistakes));
+    print(stderr, "{}", format(ready.mistakes));
     if (ready.mistakes.failed())
-        fmt::print(stderr, "note: the system runs when this is corrected, in the studio or in the file\n");
-    if (!ready.note.empty()) fmt::print(stderr, "note: {}\n", ready.note);
-    fmt::print("The studio is at\n\n  {}\n\nOpen it with a browser on this machine; Ctrl-C ends it.\n",
-               ready.address);
+        print(stderr, "note: the system runs when this is corrected, in the studio or in the file\n");
+    if (!ready.note.empty()) print(stderr, "note: {}\n", ready.note);
+    print("The studio is at\n\n  {}\n\nOpen it with a browser on this machine; Ctrl-C ends it.\n",
+          ready.address);
     std::fflush(stdout);
 }
 
@@ -83,13 +84,13 @@ int serve(const StudioCommand& command) {
         print_address(studio);
         if (!command.open) return;
         redirect = redirect_file(studio.once);
-        if (!open_browser(redirect)) fmt::print(stderr, "warning: no browser could be opened\n");
+        if (!open_browser(redirect)) print(stderr, "warning: no browser could be opened\n");
     };
     try {
         studio::serve(options, ready, [] { return noted_signal() != 0; });
         std::remove(redirect.c_str());
     } catch (const InputError& e) {
-        fmt::print(stderr, "{}", e.what());
+        print(stderr, "{}", e.what());
         return bad_input;
     }
     return fine;
@@ -108,9 +109,11 @@ int main(int argc, char** argv) {
         app.parse(words);
         return serve(command);
     } catch (const CLI::ParseError& e) {
-        return app.exit(e) == 0 ? fine : bad_input;
+        if (e.get_exit_code() == 0) return app.exit(e);
+        print(stderr, "error: {}\n  hint: 'forage studio --help' lists the options\n", e.what());
+        return bad_input;
     } catch (const std::exception& e) {
-        fmt::print(stderr, "error: {}\n", e.what());
+        print(stderr, "error: {}\n", e.what());
         return run_failed;
     }
 }

@@ -58,8 +58,12 @@ TEST_CASE("A file cannot send commands to the terminal that shows its mistakes")
     const std::string said = format(d);
     CHECK(said.find('\x1b') == std::string::npos);
     CHECK(said.find('\x07') == std::string::npos);
-    CHECK(said.find("id ' [2J '") != std::string::npos);
+    CHECK(said.find("id '\\x1b[2J '") != std::string::npos);
+    CHECK(said.find("hint: \\x1b]0;x\\x07") != std::string::npos);
     CHECK(escaped("\xff\xfe", 1, 1).find("??") != std::string::npos);
+    CHECK(escaped("a\x1b\xc2\x9b"
+                  "b",
+                  1, 5) == "a.iqr:1:5: error: m\n      a  b\n         ^\n");
 }
 
 TEST_CASE("A message is cut to a readable length") {
