@@ -146,13 +146,21 @@ bool RemoteControl::may_act() {
     tokens_ = std::min(max_per_second,
                        tokens_ + max_per_second * std::chrono::duration<double>(now - filled_).count());
     filled_ = now;
-    if (tokens_ < 1) return ++dropped_, false;
+    if (tokens_ < 1) {
+        complain(dropped_,
+                 fmt::format("a datagram is dropped: at most {} a second are read", max_per_second));
+        return false;
+    }
     tokens_ -= 1;
-    if (dropped_ > 0 && tell)
-        tell(
-            fmt::format("{} datagrams were dropped: at most {} a second are read", dropped_, max_per_second));
-    dropped_ = 0;
     return true;
+}
+
+/// Tells about one more datagram of a kind.
+void RemoteControl::complain(std::uint64_t& count, const std::string& line) const {
+    std::uint64_t power = ++count;
+    while (power % 10 == 0) power /= 10;
+    if (!tell || (count > 10 && power != 1)) return;
+    tell(count < 10 ? line : fmt::format("{} ({} datagrams so far)", line, count));
 }
 
 void RemoteControl::obey(Run& run) {
@@ -163,7 +171,7 @@ void RemoteControl::obey(Run& run) {
         std::string problem;
         const auto command = parse_remote_command(*datagram, problem);
         if (!command) {
-            if (tell) tell(fmt::format("a datagram is not a command: {}", problem));
+            complain(refused_, "a datagram is not a command: " + problem);
             continue;
         }
         const std::string text(datagram->substr(0, datagram->find_first_of(std::string_view("\r\n\0", 3))));
@@ -173,11 +181,16 @@ void RemoteControl::obey(Run& run) {
         } catch (...) {
             diagnostics.error({}, current_exception_message());
         }
-        if (!diagnostics.failed() && obeyed_.size() < max_kept) obeyed_.push_back({run.cycle(), text});
+        if (diagnostics.failed()) {
+            const auto first = std::ranges::find(diagnostics.all(), Severity::error, &Diagnostic::severity);
+            complain(refused_, fmt::format("refused {}: {}", text, first->message));
+            continue;
+        }
+        if (obeyed_.size() == max_kept) continue;
+        obeyed_.push_back({run.cycle(), text});
         if (!tell) continue;
-        if (!diagnostics.failed()) tell(fmt::format("cycle {}: {}", run.cycle(), text));
-        for (const auto& d : diagnostics.all())
-            tell(fmt::format("{}{}: {}", d.severity == Severity::error ? "refused " : "", text, d.message));
+        tell(fmt::format("cycle {}: {}", run.cycle(), text));
+        for (const auto& d : diagnostics.all()) tell(fmt::format("{}: {}", text, d.message));
     }
 }
 

@@ -23,7 +23,9 @@ class RemoteControl final : public Observer {
     /// Draws the group or connection that `id` names, as it is now, into a file of the results, and returns
     /// the file's name. Throws std::exception. Empty in a run without results.
     std::function<std::string(const RemoteCommand&, const std::string& id, Run&)> plot;
-    /// Called with a line about each command, and about each datagram that is refused. May be empty.
+    /// Called with a line about each of the first thousand commands. Of the datagrams that are refused, and
+    /// of those that are dropped, it gets the first ten, the 100th, the 1000th...: a sender cannot fill a
+    /// disk. May be empty.
     std::function<void(const std::string&)> tell;
 
     /// Where it listens, as HOST:PORT.
@@ -55,6 +57,7 @@ class RemoteControl final : public Observer {
     void carry_out(const RemoteCommand& command, Run& run, Diagnostics& diagnostics);
     void set_parameter(const RemoteCommand& command, Run& run, Diagnostics& diagnostics) const;
     bool may_act();
+    void complain(std::uint64_t& count, const std::string& line) const;
 
     UdpSocket socket_;
     Endpoint here_;
@@ -62,7 +65,7 @@ class RemoteControl final : public Observer {
     double waited_ = 0;
     double tokens_ = 100;  ///< commands that may be carried out now
     std::chrono::steady_clock::time_point filled_ = std::chrono::steady_clock::now();
-    std::uint64_t dropped_ = 0;
+    std::uint64_t refused_ = 0, dropped_ = 0;  ///< datagrams so far
     std::vector<Obeyed> obeyed_;
     std::vector<std::string> pictures_;  ///< names of files
 };
