@@ -1,5 +1,7 @@
 """Experiments in parts: the same tables as in one piece, after kills at any moment. The arguments are those of support.py."""
+import os
 import random
+import shutil
 import subprocess
 import sys
 import time
@@ -32,6 +34,35 @@ class Parts(ExperimentTest):
         self.assertEqual(len(self.lines()), 40)  # nothing twice, although the division changed
         self.assertEqual(len(self.part_files()), 4)  # few files
         self.assertFalse((self.folder / "parts" / "runs").exists())
+
+    def test_names_that_would_add_a_line_to_the_scripts_are_refused(self):
+        bad = "x\n#SBATCH --account=other\n.xml"
+        shutil.copy(self.folder / "x.xml", self.folder / bad)
+        for arguments, options, what in (
+            ([], {"file": bad}, "the name of the experiment"),
+            ([], {"directory": "a\rb"}, "the folder of the results"),
+            ([], {"directory": 'a"b'}, "the folder of the results"),
+            ([], {"directory": "a\\b"}, "the folder of the results"),
+            (["--sbatch", "--comment=a\nrm -rf ."], {}, "the option of sbatch"),
+            (["--partition", "a\nb"], {}, "the option of sbatch"),
+        ):
+            with self.subTest(arguments=arguments, **options):
+                done = self.forage("--slurm", "--dry-run", *arguments, **options)
+                self.assertEqual(done.returncode, 1)
+                self.assertRegex(done.stderr, rf"error: {what} '.*' has a .*, which cannot be in a script")
+                self.assertFalse(list(self.folder.glob("**/*.sh")))
+
+    def test_a_script_quotes_all_other_names(self):
+        name = "it's $HOME `touch here`; 50%a"
+        shutil.copy(self.folder / "x.xml", self.folder / f"{name}.xml")
+        done = self.forage("--slurm", "--dry-run", file=f"{name}.xml", directory=name)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        script = self.folder / name / "slurm/parts.sh"
+        self.assertIn("""/it's $HOME `touch here`; 50%%a/slurm/part-%a.log"\n""", script.read_text())
+        done = subprocess.run(["sh", script], env={**os.environ, "SLURM_ARRAY_TASK_ID": "1"}, capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertFalse((self.folder / "here").exists())
+        self.assertTrue((self.folder / name / "parts").exists())
 
     def test_missing_parts(self):
         self.part("1/3")

@@ -9,17 +9,39 @@
 #include <fmt/format.h>
 
 #include "core/base/output_files.h"
+#include "core/base/shell_word.h"
 
 namespace forage::cluster {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The text as one word of a shell.
-std::string quoted(const std::string& text) {
-    std::string out = "'";
-    for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return out + "'";
+/// Reports names and options that would not stay within their line of a script, or that sbatch would read
+/// in another way.
+void check_names(const SlurmJob& job, const std::string& logs, Diagnostics& diagnostics) {
+    const auto refuse = [&](const std::string& what, const std::string& name, const char* why,
+                            const char* hint) {
+        diagnostics.error({}, fmt::format("{} '{}' {}, which cannot be in a script", what, name, why), hint);
+    };
+    const auto check = [&](const std::string& what, const std::string& name, const char* hint) {
+        if (has_control(name)) refuse(what, name, "has a line end or another control character", hint);
+    };
+    check("the name of the experiment", job.file, "rename the file");
+    check("the folder", fs::current_path().string(), "submit from another folder");
+    check("the folder of the results", job.directory, "choose another directory with -o");
+    check("the program", fs::read_symlink("/proc/self/exe").string(), "install Forage in another folder");
+    for (const auto& p : job.plugins) check("the plugin", p, "rename it");
+    for (const auto& option : job.sbatch) check("the option of sbatch", option, "give one option at a time");
+    if (logs.find_first_of("\"\\") != std::string::npos)
+        refuse("the folder of the results", logs, "has a quotation mark or a backslash",
+               "choose another directory with -o");
+}
+
+/// A path in a pattern of file names of sbatch.
+std::string in_pattern(const std::string& path) {
+    std::string out;
+    for (const char c : path) out += c == '%' ? std::string("%%") : std::string(1, c);
+    return out;
 }
 
 constexpr const char* parts_script = R"(#!/bin/sh
@@ -82,10 +104,11 @@ std::string sbatch(const std::string& arguments, Diagnostics& diagnostics) {
 /// Submits both scripts. Returns a line about `what`, which it adds to the list of jobs.
 std::string submit_scripts(const std::string& logs, const std::string& what, const std::string& round,
                            Diagnostics& diagnostics) {
-    const std::string array = sbatch(quoted(logs + "/parts.sh"), diagnostics);
+    const std::string array = sbatch(shell_word(logs + "/parts.sh"), diagnostics);
     if (array.empty()) return {};
-    const std::string last = sbatch(
-        fmt::format("--dependency=afterany:{} {}{}", array, quoted(logs + "/merge.sh"), round), diagnostics);
+    const std::string last =
+        sbatch(fmt::format("--dependency=afterany:{} {}{}", array, shell_word(logs + "/merge.sh"), round),
+               diagnostics);
     const std::string line = fmt::format("Slurm jobs {} ({}) and {} (merge)", array, what, last);
     std::ofstream(logs + "/jobs", std::ios::app) << line << '\n';
     return line + "\n";
@@ -104,19 +127,23 @@ std::string submit(const SlurmJob& job, std::size_t runs, bool dry_run, Diagnost
     const std::size_t tasks = std::min<std::size_t>(job.tasks > 0 ? job.tasks : 100, runs);
     const std::string logs = logs_of(job.directory), round = argument_of(job.round);
     const std::string parts = logs + "/parts.sh", merge = logs + "/merge.sh";
-    std::string command = fmt::format("{} experiment {} -o {}", quoted(fs::read_symlink("/proc/self/exe")),
-                                      quoted(job.file), quoted(job.directory));
-    for (const auto& p : job.plugins) command += " --plugin " + quoted(p);
+    check_names(job, logs, diagnostics);
+    if (diagnostics.failed()) return {};
+    std::string command =
+        fmt::format("{} experiment {} -o {}", shell_word(fs::read_symlink("/proc/self/exe").string()),
+                    shell_word(job.file), shell_word(job.directory));
+    for (const auto& p : job.plugins) command += " --plugin " + shell_word(p);
     std::string options;
     for (const auto& option : job.sbatch) options += "#SBATCH " + option + "\n";
     const auto written = [&](const std::string& path, const char* text) {
-        write_file(path,
-                   fmt::format(fmt::runtime(text), fmt::arg("parts", quoted(parts)),
-                               fmt::arg("merge", quoted(merge)),
-                               fmt::arg("name", file_name("forage-" + fs::path(job.file).stem().string())),
-                               fmt::arg("tasks", tasks), fmt::arg("logs", logs), fmt::arg("options", options),
-                               fmt::arg("command", command), fmt::arg("round", round),
-                               fmt::arg("here", quoted(fs::current_path().string()))));
+        write_file(
+            path,
+            fmt::format(fmt::runtime(text), fmt::arg("parts", shell_word(parts)),
+                        fmt::arg("merge", shell_word(merge)),
+                        fmt::arg("name", file_name("forage-" + fs::path(job.file).stem().string())),
+                        fmt::arg("tasks", tasks), fmt::arg("logs", in_pattern(logs)),
+                        fmt::arg("options", options), fmt::arg("command", command), fmt::arg("round", round),
+                        fmt::arg("here", shell_word(fs::current_path().string()))));
     };
     try {
         make_directory(logs);
@@ -130,7 +157,7 @@ std::string submit(const SlurmJob& job, std::size_t runs, bool dry_run, Diagnost
         return fmt::format(
             "written: {0}, {1}\nparts=$(sbatch --parsable {2}) && sbatch --dependency=afterany:$parts "
             "{3}{4}\n",
-            parts, merge, quoted(parts), quoted(merge), round);
+            parts, merge, shell_word(parts), shell_word(merge), round);
     return submit_scripts(logs, fmt::format("{} parts", tasks), round, diagnostics);
 }
 

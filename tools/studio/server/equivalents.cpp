@@ -8,21 +8,11 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/shell_word.h"
 #include "core/types/parameter.h"
 
 namespace forage::studio {
 namespace {
-
-/// A word for the shell.
-std::string quoted(const std::string& text) {
-    std::string out = "'";
-    for (const char c : text)
-        if (c == '\'')
-            out += "'\\''";
-        else
-            out += c;
-    return out + "'";
-}
 
 /// A string of Python.
 std::string literal(const std::string& text) {
@@ -64,8 +54,8 @@ Equivalent of_assignments(const std::vector<std::string>& assignments, std::uint
         const auto equal = a.find('=');
         const std::string name = a.substr(0, equal), value = equal == a.npos ? "" : a.substr(equal + 1);
         if (!out.shell.empty()) out.shell += ' ', out.python += '\n';
-        out.shell +=
-            cycle == 0 ? "--set " + quoted(a) : "--schedule " + quoted(fmt::format("cycle {}: {}", cycle, a));
+        out.shell += cycle == 0 ? "--set " + shell_word(a)
+                                : "--schedule " + shell_word(fmt::format("cycle {}: {}", cycle, a));
         out.python += fmt::format("run.params[{}] = {}", literal(name), value_in_python(value));
     }
     return out;
@@ -95,7 +85,7 @@ std::string manipulation_option(const DrivenGroup& driven, const std::string& wh
         else if (cells.size() < 200)
             what = driven.group + cells;
     }
-    return fmt::format("--{} {}", driven.mode, quoted(what + pace + when));
+    return fmt::format("--{} {}", driven.mode, shell_word(what + pace + when));
 }
 
 /// A name of Python for what drives a group.
@@ -153,8 +143,9 @@ bool is_short(const nlohmann::json& operations) {
 
 std::string command_of(const EditedFile& file, const nlohmann::json& operations) {
     if (file.path.empty() || !is_short(operations)) return {};
-    std::string out = fmt::format("forage edit {} {}", quoted(file.path), quoted(text_of(operations)));
-    for (const auto& p : file.plugins) out += " --plugin " + quoted(p);
+    std::string out =
+        fmt::format("forage edit {} {}", shell_word(file.path), shell_word(text_of(operations)));
+    for (const auto& p : file.plugins) out += " --plugin " + shell_word(p);
     return out;
 }
 
@@ -174,7 +165,7 @@ Equivalent of_edit(const EditedFile& file, const nlohmann::json& operations) {
 
 Equivalent of_save(const EditedFile& file, const std::string& to) {
     auto shell = to == file.path ? "" : command_of(file, nlohmann::json::array());
-    if (!shell.empty()) shell += " -o " + quoted(to);
+    if (!shell.empty()) shell += " -o " + shell_word(to);
     return {shell, fmt::format("system.save({})", literal(to))};
 }
 
@@ -184,12 +175,12 @@ Equivalent of_world_edit(const EditedFile& file, const nlohmann::json& operation
 }
 
 Equivalent of_world_copy(const EditedFile& file, const std::string& to) {
-    return {fmt::format("forage edit {} '[]' -o {}", quoted(file.path), quoted(to)),
+    return {fmt::format("forage edit {} '[]' -o {}", shell_word(file.path), shell_word(to)),
             fmt::format("forage.edit_file({}, [], save_as={})", literal(file.path), literal(to))};
 }
 
 Equivalent of_move(const std::string& name, double x, double y, double heading, std::uint64_t cycle) {
-    return {"--schedule " + quoted(fmt::format("cycle {}: move {}={},{},{}", cycle, name, x, y, heading)),
+    return {"--schedule " + shell_word(fmt::format("cycle {}: move {}={},{},{}", cycle, name, x, y, heading)),
             fmt::format("run.move({}, x={}, y={}, heading={})", literal(name), x, y, heading)};
 }
 
@@ -197,9 +188,10 @@ Equivalent of_trial(const std::string& robot, int start, std::uint64_t cycle) {
     const std::string where = start < 0 ? "" : fmt::format("start={}, ", start);
     const std::string at = start < 0 ? "" : fmt::format("={}", start);
     const bool ambiguous = start < 0 && robot.find('=') != robot.npos;
-    return {
-        ambiguous ? "" : "--schedule " + quoted(fmt::format("cycle {}: begin_trial {}{}", cycle, robot, at)),
-        fmt::format("run.begin_trial({}robot={})", where, literal(robot))};
+    return {ambiguous
+                ? ""
+                : "--schedule " + shell_word(fmt::format("cycle {}: begin_trial {}{}", cycle, robot, at)),
+            fmt::format("run.begin_trial({}robot={})", where, literal(robot))};
 }
 
 namespace {
@@ -215,7 +207,7 @@ std::string opened_in_python(const Opened& o) {
 Equivalent of_restart(const Opened& o) { return {fmt::format("--seed {}", o.seed), opened_in_python(o)}; }
 
 Equivalent of_world(const Opened& o) {
-    return {o.world.empty() ? "" : "--world " + quoted(o.world), opened_in_python(o)};
+    return {o.world.empty() ? "" : "--world " + shell_word(o.world), opened_in_python(o)};
 }
 
 namespace {
@@ -224,12 +216,12 @@ std::string recording_options(const Sampled& s) {
     const std::filesystem::path file = s.file;
     std::string out;
     for (const auto& source : s.sources)
-        out += fmt::format("--record {} ", quoted(source + "=" + file.filename().string()));
+        out += fmt::format("--record {} ", shell_word(source + "=" + file.filename().string()));
     if (s.every > 1) out += fmt::format("--record-every {} ", s.every);
     // A row is written at multiples of the interval; options count it from the first one.
     if (s.from > 0) out += fmt::format("--record-from {} ", (s.from + s.every - 1) / s.every * s.every);
     if (s.until) out += fmt::format("--record-until {} ", *s.until);
-    return out + "-o " + quoted(file.has_parent_path() ? file.parent_path().string() : ".");
+    return out + "-o " + shell_word(file.has_parent_path() ? file.parent_path().string() : ".");
 }
 
 }  // namespace
