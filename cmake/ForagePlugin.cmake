@@ -10,4 +10,6 @@ function(forage_add_plugin name)
                         LIBRARY_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/plugins)
   target_compile_options(${name} PRIVATE $<$<CONFIG:>:-O3>)  # no build type is set
   target_compile_definitions(${name} PRIVATE $<$<CONFIG:>:NDEBUG>)
+  # Forage loads no plugin that other users may change.
+  add_custom_command(TARGET ${name} POST_BUILD COMMAND chmod go-w $<TARGET_FILE:${name}> $<TARGET_FILE_DIR:${name}> VERBATIM)
 endfunction()

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <set>
 #include <stdexcept>
 
@@ -118,6 +119,13 @@ std::string digest(std::string_view text) {
     std::uint64_t hash = 0xcbf29ce484222325u;
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
     return fmt::format("{:016x}", hash);
+}
+
+std::string file_digest(const std::string& path) {
+    std::error_code none;  // the content of a pipe cannot be read again
+    if (!std::filesystem::is_regular_file(path, none)) return digest({});
+    std::ifstream in(path, std::ios::binary);
+    return digest({std::string(std::istreambuf_iterator<char>(in), {})});
 }
 
 void make_directory(const std::string& path) {

@@ -31,11 +31,19 @@ struct UnknownType {
 
 /// What to say about a type that is not known. `kind` is "neuron", "synapse" or "module".
 UnknownType unknown_type(std::string_view kind, const std::string& name,
-                         const std::vector<std::string>& known) {
+                         const std::vector<std::string>& known, const Registry& registry) {
     if (const auto* original = find_missing_original_type(name))
         return {fmt::format("Forage does not have the original's {}: {}", name, original->reason),
                 std::string(original->hint)};
     std::string hint = suggest(name, known);
+    if (!registry.unloaded.empty()) {
+        const auto& [folder, how] = registry.unloaded.front();
+        return {fmt::format(
+                    "there is no {} type '{}' in Forage; it may be that of a plugin in '{}', which is not "
+                    "loaded",
+                    kind, name, folder),
+                hint.starts_with("did you mean") ? hint + " " + how : how};
+    }
     if (!hint.starts_with("did you mean"))
         hint +=
             "; if it comes from a plugin: --plugin PATH, or its .so in a folder 'plugins' beside the system";
@@ -180,7 +188,8 @@ class Validator {
             check_settings(group.neuron, type->parameters);
             check_with_type(group.neuron, *type, trim(group.name));
         } else {
-            const auto unknown = unknown_type("neuron", group.neuron.type, names(registry_.neurons()));
+            const auto unknown =
+                unknown_type("neuron", group.neuron.type, names(registry_.neurons()), registry_);
             out_.error(group.neuron.at, unknown.message, unknown.hint);
         }
         check_topology(group);
@@ -208,7 +217,8 @@ class Validator {
         const ModuleUse& use = *process.module;
         const ModuleType* type = registry_.module(use.type);
         if (!type) {
-            const auto [message, hint] = unknown_type("module", use.type, names(registry_.modules()));
+            const auto [message, hint] =
+                unknown_type("module", use.type, names(registry_.modules()), registry_);
             if (process.module_enabled)
                 out_.error(use.at, message, hint);
             else
@@ -351,7 +361,8 @@ class Validator {
             check_with_type(*c.synapse, *type, trim(c.name));
             check_feedback(*c.synapse, *type, target);
         } else {
-            const auto unknown = unknown_type("synapse", c.synapse->type, names(registry_.synapses()));
+            const auto unknown =
+                unknown_type("synapse", c.synapse->type, names(registry_.synapses()), registry_);
             out_.error(c.synapse->at, unknown.message, unknown.hint);
         }
         check_attenuation(c.attenuation);

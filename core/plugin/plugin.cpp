@@ -1,5 +1,6 @@
 #include "core/plugin/plugin.h"
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <stdexcept>
@@ -8,9 +9,12 @@
 #include <fmt/format.h>
 
 #include "core/base/exception_message.h"
+#include "core/base/shell_word.h"
 #include "core/plugin/child.h"
 #include "core/plugin/contract.h"
+#include "core/plugin/declarations.h"
 #include "core/plugin/shared_object.h"
+#include "core/plugin/trust.h"
 
 namespace forage::plugin {
 namespace {
@@ -33,7 +37,35 @@ std::string mismatch(const PluginHeader& header) {
 
 class Loader {
   public:
-    Loader(const Registry& shipped, Diagnostics& diagnostics) : known_(shipped), diagnostics_(diagnostics) {}
+    Loader(Use use, const Registry& shipped, Diagnostics& diagnostics)
+        : use_(use), known_(shipped), diagnostics_(diagnostics) {}
+
+    /// Decides what is done with a file. All plugins come through here.
+    std::optional<Plugin> take(const File& file) {
+        if (file.named || (use_ == Use::run && (is_loaded(file.path) || is_trusted(folder_of(file.path)))))
+            return load(file.path);
+        if (use_ == Use::read) return declared(file.path);
+        return Plugin{
+            file.path,
+            {},
+            false,
+            fmt::format("a plugin is a program: if you trust those of this folder, 'forage trust {}'",
+                        shell_word(folder_of(file.path)))};
+    }
+
+  private:
+    std::optional<Plugin> declared(const std::string& path) {
+        Plugin out{path, {}, false};
+        auto types = read_declarations(path);
+        if (!types) {
+            out.hint =
+                "reading a system loads no plugins beside it: 'forage build-plugin' writes their types to "
+                "NAME.so.json, and --plugin loads one";
+            return out;
+        }
+        accept_all(out, *types);
+        return out;
+    }
 
     std::optional<Plugin> load(const std::string& path) {
         const auto* header =
@@ -50,7 +82,6 @@ class Loader {
         return out;
     }
 
-  private:
     void error(const std::string& path, const std::string& what, std::string hint = {}) {
         diagnostics_.error({}, fmt::format("plugin '{}' {}", path, what), std::move(hint));
     }
@@ -69,9 +100,13 @@ class Loader {
                          "describe() and the constructor run before any system is loaded: what can fail "
                          "belongs into update(), or a module's start()");
         }
-        for (auto& t : one.neurons) accept(out, t, "neuron", known_.neuron(t.name), out.types.neurons);
-        for (auto& t : one.synapses) accept(out, t, "synapse", known_.synapse(t.name), out.types.synapses);
-        for (auto& t : one.modules) accept(out, t, "module", known_.module(t.name), out.types.modules);
+        accept_all(out, one);
+    }
+
+    void accept_all(Plugin& out, PluginTypes& all) {
+        for (auto& t : all.neurons) accept(out, t, "neuron", known_.neuron(t.name), out.types.neurons);
+        for (auto& t : all.synapses) accept(out, t, "synapse", known_.synapse(t.name), out.types.synapses);
+        for (auto& t : all.modules) accept(out, t, "module", known_.module(t.name), out.types.modules);
     }
 
     template <class Type>
@@ -85,7 +120,7 @@ class Loader {
                                                                  : fmt::format("plugin '{}'", owner->second)),
                          "give one of them another name in describe()");
         }
-        if (const std::string what = fault(type); !what.empty())
+        if (const std::string what = out.loaded ? fault(type) : ""; !what.empty())
             return error(out.path,
                          fmt::format("has a {} type '{}' that does not work: {}", kind, type.name, what));
         try {
@@ -119,6 +154,7 @@ class Loader {
         return {};
     }
 
+    Use use_;
     Registry known_;
     std::map<std::string, std::string> owners_;  ///< plugins by kind and name of a type
     Diagnostics& diagnostics_;
@@ -126,12 +162,12 @@ class Loader {
 
 }  // namespace
 
-std::vector<Plugin> load(const std::vector<std::string>& paths, const Registry& shipped,
+std::vector<Plugin> load(const std::vector<File>& files, Use use, const Registry& shipped,
                          Diagnostics& diagnostics) {
     std::vector<Plugin> out;
-    Loader loader(shipped, diagnostics);
-    for (const auto& path : paths)
-        if (auto plugin = loader.load(path)) out.push_back(std::move(*plugin));
+    Loader loader(use, shipped, diagnostics);
+    for (const auto& file : files)
+        if (auto plugin = loader.take(file)) out.push_back(std::move(*plugin));
     return out;
 }
 
@@ -140,6 +176,8 @@ void add(const std::vector<Plugin>& plugins, Registry& registry) {
         for (const auto& t : p.types.neurons) registry.add(t);
         for (const auto& t : p.types.synapses) registry.add(t);
         for (const auto& t : p.types.modules) registry.add(t);
+        if (!p.hint.empty())
+            registry.unloaded.push_back({std::filesystem::path(p.path).parent_path().string(), p.hint});
     }
 }
 

@@ -15,33 +15,34 @@ namespace fs = std::filesystem;
 class Found {
   public:
     /// Adds a file, or all shared objects of a folder. Returns false when there are none.
-    bool add(const fs::path& path) {
+    bool add(const fs::path& path, bool named) {
         std::error_code ignored;
-        if (!fs::is_directory(path, ignored)) return add_file(path), true;
+        if (!fs::is_directory(path, ignored)) return add_file(path, named), true;
         std::vector<fs::path> files;
         for (const auto& entry : fs::directory_iterator(path, ignored))
             if (entry.path().extension() == ".so") files.push_back(entry.path());
         std::ranges::sort(files);
-        for (const auto& file : files) add_file(file);
+        for (const auto& file : files) add_file(file, named);
         return !files.empty();
     }
     /// Adds the shared objects of a folder, except those whose name was added from elsewhere.
     void add_others(const fs::path& folder) {
         std::set<fs::path> names;
-        for (const auto& file : files_) names.insert(fs::path(file).filename());
+        for (const auto& file : files_) names.insert(fs::path(file.path).filename());
         Found all;
-        all.add(folder);
+        all.add(folder, false);
         for (const auto& file : all.files_)
-            if (!names.contains(fs::path(file).filename())) add_file(file);
+            if (!names.contains(fs::path(file.path).filename())) add_file(file.path, false);
     }
-    std::vector<std::string> files() && { return std::move(files_); }
+    std::vector<File> files() && { return std::move(files_); }
 
   private:
-    void add_file(const fs::path& path) {
+    void add_file(const fs::path& path, bool named) {
         std::error_code ignored;
-        if (seen_.insert(fs::weakly_canonical(path, ignored)).second) files_.push_back(path.string());
+        if (seen_.insert(fs::weakly_canonical(path, ignored)).second)
+            files_.push_back({path.string(), named});
     }
-    std::vector<std::string> files_;
+    std::vector<File> files_;
     std::set<fs::path> seen_;
 };
 
@@ -63,19 +64,19 @@ fs::path newer_source(const fs::path& plugin) {
 
 }  // namespace
 
-std::vector<std::string> find(const std::vector<std::string>& named, const std::string& path,
-                              const std::string& beside, Diagnostics& diagnostics) {
+std::vector<File> find(const std::vector<std::string>& named, const std::string& path,
+                       const std::string& beside, Diagnostics& diagnostics, bool by_user) {
     Found found;
     std::error_code ignored;
     for (const auto& name : named)
-        if (!found.add(name))  // load() reports files that do not exist
+        if (!found.add(name, by_user))  // load() reports files that do not exist
             diagnostics.warning({}, fmt::format("--plugin: there is no plugin in the folder '{}'", name),
                                 "plugins end in .so; 'forage build-plugin FILE.cpp' makes one");
     std::istringstream parts(path);
     for (std::string part; std::getline(parts, part, ':');) {
         if (part.empty()) continue;
         if (fs::exists(part, ignored))
-            found.add(part);
+            found.add(part, true);
         else
             diagnostics.warning({}, fmt::format("FORAGE_PLUGIN_PATH: there is no '{}'", part));
     }
@@ -84,8 +85,8 @@ std::vector<std::string> find(const std::vector<std::string>& named, const std::
             found.add_others(folder);
     auto files = std::move(found).files();
     for (const auto& file : files)
-        if (const auto source = newer_source(file); !source.empty())
-            diagnostics.warning({}, fmt::format("plugin '{}' is older than '{}'", file, source.string()),
+        if (const auto source = newer_source(file.path); !source.empty())
+            diagnostics.warning({}, fmt::format("plugin '{}' is older than '{}'", file.path, source.string()),
                                 fmt::format("'forage build-plugin {}' builds it again", source.string()));
     return files;
 }

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/plugin/elf.h"
+#include "core/plugin/trust.h"
 
 namespace forage::plugin {
 namespace {
@@ -53,11 +54,23 @@ std::string demangled(const std::string& name) {
     return status == 0 && text ? text.get() : name;
 }
 
+bool is_loaded(const std::string& path) {
+    if (std::error_code none; !fs::is_regular_file(path, none)) return false;
+    void* handle = dlopen(fs::absolute(path).c_str(), RTLD_NOW | RTLD_LOCAL | RTLD_NOLOAD);
+    if (handle) dlclose(handle);
+    return handle != nullptr;
+}
+
 const void* load_symbol(const std::string& path, const char* symbol, Diagnostics& diagnostics) {
     std::error_code ignored;
     if (!fs::exists(path, ignored)) {
         diagnostics.error({}, fmt::format("there is no plugin '{}'", path),
                           "a plugin is a shared object (.so), or a folder of them");
+        return nullptr;
+    }
+    if (auto why = insecure_plugin(path)) {
+        why->message = fmt::format("plugin '{}' is not loaded: {}", path, why->message);
+        diagnostics.add(std::move(*why));
         return nullptr;
     }
     if (const std::string why = why_not_loadable(path); !why.empty()) {

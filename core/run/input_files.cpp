@@ -1,11 +1,7 @@
 #include "core/run/input_files.h"
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <set>
 
-#include "core/base/output_files.h"
 #include "core/model/validate.h"
 
 namespace forage {
@@ -16,13 +12,6 @@ void add(InputFiles& all, const Location& where) {
 }
 
 }  // namespace
-
-std::string file_digest(const std::string& path) {
-    std::error_code none;  // the content of a pipe cannot be read again
-    if (!std::filesystem::is_regular_file(path, none)) return digest({});
-    std::ifstream in(path, std::ios::binary);
-    return digest({std::string(std::istreambuf_iterator<char>(in), {})});
-}
 
 InputFiles system_files(const model::System& system) {
     InputFiles out;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/base/output_files.h"
 #include "core/model/edit.h"
 #include "core/model/system.h"
 #include "core/types/registry.h"
@@ -21,8 +22,5 @@ InputFiles system_files(const model::System& system);
 /// or write these files.
 std::vector<std::string> module_files(const model::System& system, const Registry& registry,
                                       const std::vector<model::Assignment>& changes);
-
-/// The digest of a file's content; the digest of an empty text when there is no such file.
-std::string file_digest(const std::string& path);
 
 }  // namespace forage

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,9 @@ struct RunInput {
     std::string text = {};
     /// The text of `world` when it is not that of the file; otherwise empty.
     std::string world_text = {};
+    /// For a run that is resumed, the digests of its files. A checkpoint names `plugins` then, not the user:
+    /// those in folders that are not trusted are not loaded, and those that have changed are errors.
+    std::optional<std::map<std::string, std::string>> resumed_files = {};
 };
 
 /// The options of all recordings of a run.

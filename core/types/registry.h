@@ -26,6 +26,12 @@ class Registry {
     const SynapseType* synapse(std::string_view name) const;
     const ModuleType* module(std::string_view name) const;
 
+    /// Folders whose plugins are not loaded, so that their types are missing, and what makes them known.
+    struct Unloaded {
+        std::string folder, hint;
+    };
+    std::vector<Unloaded> unloaded;
+
     const auto& neurons() const { return neurons_; }
     const auto& synapses() const { return synapses_; }
     const auto& modules() const { return modules_; }

@@ -44,7 +44,7 @@ int main() {
     add_neurons(registry);
     add_synapses(registry);
     Diagnostics diagnostics;
-    plugin::add(plugin::load({FORAGE_TWINS}, registry, diagnostics), registry);
+    plugin::add(plugin::load({{FORAGE_TWINS}}, plugin::Use::run, registry, diagnostics), registry);
     for (const int cells : {10, 1000, 100'000}) {
         std::vector<engine::Simulation> simulations;
         for (const char* type : {"neuronLinearThreshold", "neuronLinearThresholdTwin"}) {

@@ -4,9 +4,11 @@
 """
 
 import concurrent.futures
+import contextlib
 import json
 import os
 import pathlib
+import pty
 import re
 import shutil
 import signal
@@ -91,9 +93,13 @@ class Plugins(unittest.TestCase):
         directory = tempfile.TemporaryDirectory()
         self.addCleanup(directory.cleanup)
         self.here = pathlib.Path(directory.name)
+        config = tempfile.TemporaryDirectory()
+        self.addCleanup(config.cleanup)
+        self.config = pathlib.Path(config.name)
 
     def forage(self, *arguments, status=0, path=None):
         environment = {k: v for k, v in os.environ.items() if k != "FORAGE_PLUGIN_PATH"}
+        environment["XDG_CONFIG_HOME"] = str(self.config)
         if path is not None:
             environment["FORAGE_PLUGIN_PATH"] = str(path)
         done = subprocess.run([FORAGE, *map(str, arguments)], cwd=self.here, env=environment, capture_output=True, text=True, timeout=600)
@@ -253,6 +259,9 @@ class Twins(Plugins):
         wait_for((self.here / "out/checkpoint.forage").exists, stopped)
         stopped.kill()
         stopped.wait()
+        refused = self.forage("resume", "out", status=2)  # a checkpoint names the plugin, not the user
+        self.assertIn(f"'forage trust '{BROKEN.parent}", refused.stderr)
+        self.forage("trust", BROKEN.parent)
         self.forage("resume", "out")
         for name in ("P_B_act.csv", "P_D_act.csv"):
             self.assertEqual((self.here / "out" / name).read_bytes(), (self.here / "whole" / name).read_bytes(), name)
@@ -313,6 +322,7 @@ class Files(Plugins):
             with self.subTest(end):
                 self.stop(end, end.name)
                 self.assertEqual((self.here / end.name / "P_diary.log.part").exists(), end == signal.SIGKILL)
+                self.forage("trust", self.DIARY.parent)
                 self.forage("resume", end.name)
                 self.assertEqual(self.diary(end.name), self.diary("whole"))
                 self.assertFalse(list((self.here / end.name).glob("*.part")))
@@ -320,6 +330,7 @@ class Files(Plugins):
     def test_a_file_that_lost_lines_is_not_continued(self):
         self.stop(signal.SIGKILL, "out")
         (self.here / "out/P_diary.log.part").write_text("")
+        self.forage("trust", self.DIARY.parent)
         self.assertRegex(self.forage("resume", "out", status=2).stderr, "the file '.*P_diary.log' of a module should have")
 
     def test_runs_of_an_experiment_write_files_of_their_own(self):
@@ -361,7 +372,8 @@ class Found(Plugins):
         self.forage("check", system, "--plugin", "more")
         self.forage("check", system, path="/nowhere:more:")
         (self.here / "more").rename(self.here / "sub/plugins")
-        self.forage("check", system)
+        self.forage("run", system, "-c", 3, "-o", "out", status=2)
+        self.forage("trust", "sub")
         self.forage("run", system, "-c", 3, "-o", "out")
         self.assertIn("twice_a.so", (self.here / "out/run.json").read_text())
         self.forage("convert", system, "copy.iqr")
@@ -373,6 +385,8 @@ class Found(Plugins):
         self.forage("experiment", "e.xml", status=2)
         (self.here / "plugins").mkdir()
         shutil.copy(self.PLUGIN, self.here / "plugins")
+        self.forage("experiment", "e.xml", "-o", "out", status=2)
+        self.forage("trust", "plugins")
         self.forage("experiment", "e.xml", "-o", "out")
         [result] = self.here.glob("out/**/result.json")
         first = result.read_text()
@@ -388,11 +402,11 @@ class Found(Plugins):
         source.write_text("// changed")
         self.system("neuronTwice")
         os.utime(source, (1, 1))
-        self.assertEqual(self.forage("check", "system.iqr").stderr, "")
+        self.forage("trust", "plugins")
+        command = ["run", "system.iqr", "-c", 1, "-o", ""]
+        self.assertEqual(self.forage(*command).stderr, "")
         os.utime(source, (4e9, 4e9))
-        self.assertIn(
-            "warning: plugin 'plugins/mine.so' is older than 'mine.cpp'\n  hint: 'forage build-plugin mine.cpp'", self.forage("check", "system.iqr").stderr
-        )
+        self.assertIn("warning: plugin 'plugins/mine.so' is older than 'mine.cpp'\n  hint: 'forage build-plugin mine.cpp'", self.forage(*command).stderr)
 
     def test_a_missing_folder_of_the_path_is_a_warning(self):
         done = self.forage("types", path="/nowhere")
@@ -404,20 +418,156 @@ class Found(Plugins):
         self.assertIn("neuronTwice", self.forage("schema", "--plugin", self.PLUGIN).stdout)
 
 
+class Trust(Plugins):
+    """Which plugins are loaded. That of this test leaves a file behind when it is loaded, and has no types."""
+
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        source = pathlib.Path(folder.name) / "spy.c"
+        source.write_text('#include <stdio.h>\n__attribute__((constructor)) static void run(void) { fclose(fopen("loaded", "w")); }\n')
+        cls.spy = source.with_suffix(".so")
+        subprocess.run(["cc", "-shared", "-fPIC", source, "-o", cls.spy], check=True)
+
+    def setUp(self):
+        super().setUp()
+        self.plugins = self.here / "plugins"
+        self.plugins.mkdir(mode=0o755)
+        self.file = self.plugins / "spy.so"
+        shutil.copy(self.spy, self.file)
+        self.file.chmod(0o755)
+        self.system("neuronSpy")
+        (self.here / "e.xml").write_text('<experiment><system file="system.iqr"/><length cycles="5"/><measure name="x" final="mean(P/A)"/></experiment>')
+
+    def loaded(self):
+        there = (self.here / "loaded").exists()
+        (self.here / "loaded").unlink(missing_ok=True)
+        return there
+
+    RUNS = (["run", "system.iqr", "-c", "3"], ["explain", "system.iqr", "-c", "3"], ["experiment", "e.xml"])
+
+    def test_reading_a_system_never_loads_what_is_beside_it(self):
+        self.forage("trust", "plugins")
+        for command in (["check", "system.iqr"], ["describe", "system.iqr"]):
+            with self.subTest(command):
+                self.assertIn("'neuronSpy' in Forage; it may be that of a plugin in 'plugins', which is not loaded", self.forage(*command, status=2).stderr)
+                self.assertFalse(self.loaded())
+        self.forage("plot", "system.iqr", "diagram")
+        (self.here / "sub").mkdir()
+        self.assertIn("warning: the plugins in 'plugins' are not loaded: relative paths", self.forage("convert", "system.iqr", "sub/copy.iqr").stderr)
+        self.forage("edit", "system.iqr", '{"do": "rename", "id": "a", "name": "B"}')
+        self.assertFalse(self.loaded())
+
+    def test_runs_load_it_when_its_folder_is_trusted(self):
+        for command in self.RUNS:
+            with self.subTest(command):
+                refused = self.forage(*command, status=2).stderr
+                self.assertIn("there is no neuron type 'neuronSpy' in Forage; it may be that of a plugin in 'plugins', which is not loaded", refused)
+                self.assertIn(f"hint: a plugin is a program: if you trust those of this folder, 'forage trust '{self.plugins.resolve()}''", refused)
+                self.assertFalse(self.loaded())
+        self.forage("trust", ".")
+        self.assertEqual(self.forage("trust").stdout, f"{self.plugins.resolve()}\n")
+        for command in self.RUNS:
+            self.forage(*command, status=2)  # it has no types
+            self.assertTrue(self.loaded())
+        self.forage("trust", "--remove", "plugins")
+        self.assertEqual(self.forage("trust").stdout, "")
+        self.forage(*self.RUNS[0], status=2)
+        self.assertFalse(self.loaded())
+
+    def test_a_system_of_known_types_runs_without_the_plugins_beside_it(self):
+        self.system("neuronLinearThreshold")
+        self.forage(*self.RUNS[0])
+        self.assertFalse(self.loaded())
+
+    def test_what_others_may_change_is_never_loaded(self):
+        def give(path):
+            os.chown(path, 12345, 12345)
+
+        changes = [(path, lambda p, mode=mode: p.chmod(mode)) for path in (self.file, self.plugins) for mode in (0o775, 0o757, 0o777)]
+        if os.geteuid() == 0:
+            changes += [(self.file, give), (self.plugins, give)]
+        self.forage("trust", "plugins")
+        for path, change in changes:
+            before = path.stat()
+            change(path)
+            for how in ([], ["--plugin", "plugins"], ["--plugin", "plugins/spy.so"]):
+                with self.subTest(path=path.name, how=how):
+                    refused = self.forage(*self.RUNS[0], *how, status=2).stderr
+                    self.assertRegex(refused, rf"error: plugin 'plugins/spy.so' is not loaded: .*'plugins{'/spy.so' if path == self.file else ''}'")
+                    self.assertRegex(refused, r"hint: .*(chmod go-w|chown)")
+                    self.assertFalse(self.loaded())
+            path.chmod(before.st_mode & 0o777)
+            if os.geteuid() == 0:
+                os.chown(path, 0, 0)
+        self.forage(*self.RUNS[0], status=2)
+        self.assertTrue(self.loaded())
+
+    def test_a_terminal_is_asked(self):
+        for answer, loaded in (("n", False), ("", False), ("y", True)):
+            with self.subTest(answer):
+                self.assertRegex(self.on_a_terminal(answer), r"plugins' has plugins, which are programs. Load them, now and in future\? \[y/N\]")
+                self.assertEqual(self.loaded(), loaded)
+        self.assertNotIn("Load them", self.on_a_terminal(""))
+
+    def on_a_terminal(self, answer):
+        """What a run prints on a terminal on which the user types an answer."""
+        mine, its = pty.openpty()
+        environment = {**os.environ, "XDG_CONFIG_HOME": str(self.config)}
+        run = subprocess.Popen([FORAGE, *self.RUNS[0]], cwd=self.here, env=environment, stdin=its, stdout=its, stderr=its)
+        os.close(its)
+        os.write(mine, f"{answer}\n".encode())
+        said = b""
+        with contextlib.suppress(OSError):  # the end
+            while part := os.read(mine, 4096):
+                said += part
+        os.close(mine)
+        self.assertEqual(run.wait(600), 2)
+        return said.decode()
+
+    def test_a_changed_plugin_is_not_loaded_to_resume_a_run(self):
+        shutil.copy(BROKEN / "twice_a.so", self.file)
+        self.system("neuronTwice")
+        self.forage("trust", "plugins")
+        run = subprocess.Popen(
+            [FORAGE, "run", "system.iqr", "-c", "1000", "--realtime", "--checkpoint-every", "5", "-o", "out"],
+            cwd=self.here,
+            env={**os.environ, "XDG_CONFIG_HOME": str(self.config)},
+            stdout=subprocess.DEVNULL,
+        )
+        wait_for((self.here / "out/checkpoint.forage").exists, run)
+        run.kill()
+        run.wait()
+        shutil.copy(self.spy, self.file)
+        self.assertIn("error: plugin 'plugins/spy.so' has changed since the run began", self.forage("resume", "out", status=2).stderr)
+        self.assertFalse(self.loaded())
+
+
 class BuildTree(unittest.TestCase):
     def test_build_plugin_compiles_a_new_type_and_its_example_gives_the_expected_rows(self):
         for kind in ("neuron", "synapse"):
             with self.subTest(kind), tempfile.TemporaryDirectory() as folder:
                 here = pathlib.Path(folder) / "mine"
+                environment = {**os.environ, "XDG_CONFIG_HOME": str(pathlib.Path(folder) / "config")}
                 for words in (
                     ["new", kind, "mine"],
                     ["build-plugin", "mine/mine.cpp"],
+                    ["check", "mine/example.iqr"],  # by the declarations
+                    ["describe", "mine/example.iqr"],
                     ["run", "mine/example.iqr", "--cycles", "6", "--record", "Example/Cells", "-o", "mine/out"],
                 ):
-                    done = subprocess.run([FORAGE, *words], cwd=folder, capture_output=True, text=True, timeout=600)
+                    done = subprocess.run([FORAGE, *words], cwd=folder, env=environment, capture_output=True, text=True, timeout=600)
                     self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                system = here / "example.iqr"
+                use = f'<{kind.title()} name="{kind}Mine"'
+                self.assertIn(f"{use}/>", system.read_text())
+                system.write_text(system.read_text().replace(f"{use}/>", f'{use}><Parameter name="xyz" value="1"/></{kind.title()}>'))
+                done = subprocess.run([FORAGE, "check", system], env=environment, capture_output=True, text=True, timeout=600)
+                self.assertIn(f"{kind}Mine has no parameter 'xyz'", done.stderr)
                 self.assertEqual((here / "out/Example_Cells_act.csv").read_text(), (here / "expected.csv").read_text())
 
 
 if __name__ == "__main__":
+    os.umask(0o022)  # Forage loads no plugin that the group may write
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]])

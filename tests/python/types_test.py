@@ -2,7 +2,9 @@
 import copy
 import gc
 import os
+import pathlib
 import pickle
+import shutil
 import signal
 import threading
 
@@ -180,6 +182,39 @@ def test_a_module_and_its_twin_in_cpp_write_the_same_bits(twins, seed):
     for run in resumed:
         run.run(cycles=50)
     assert (resumed[0].read("P/B") == resumed[1].read("P/B")).all()
+
+
+def test_a_plugin_beside_a_system_is_loaded_only_to_run_and_only_if_it_is_trusted(twins, tmp_path, monkeypatch):
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
+    os.umask(0o022)
+    plugins = tmp_path / "plugins"
+    plugins.mkdir()
+    file = tmp_path / "twins.iqr"
+    system_of("neuronLeakyTwin", "synapseOjaTwin", [twins]).save(file)
+    shutil.copy(os.fspath(twins), plugins / "twins.so")
+    with pytest.raises(forage.InputError, match="may be that of a plugin in '.*plugins', which is not loaded(.|\n)*forage trust"):
+        forage.open(file)
+    forage.System.read(file)
+    shutil.copy(os.fspath(twins) + ".json", plugins / "twins.so.json")
+    system = forage.System.read(file)
+    system["P/A"].params["threshold"] = 0.4
+    assert system["P/A"].params["threshold"] == 0.4
+    assert "Link" in system.describe()  # by the declarations
+    with pytest.raises(forage.InputError, match="forage trust"):
+        forage.open(system)
+    assert str(plugins) not in pathlib.Path("/proc/self/maps").read_text()
+    (tmp_path / "config/forage").mkdir(parents=True)
+    (tmp_path / "config/forage/trusted-plugins").write_text(f"{plugins.resolve()}\n")
+    run = forage.open(system)
+    run.run(cycles=3)
+    assert str(plugins) in pathlib.Path("/proc/self/maps").read_text()
+    state = run.save_state()
+    (tmp_path / "config/forage/trusted-plugins").unlink()
+    assert forage.resume(state).digest() == run.digest()  # this program has loaded it before
+    with (plugins / "twins.so").open("ab") as more:
+        more.write(b"another build")
+    with pytest.raises(forage.InputError, match="has changed"):
+        forage.resume(state)
 
 
 def test_types_are_described_and_validated():

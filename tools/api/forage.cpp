@@ -68,13 +68,14 @@ void OpenOptions::checkpoint(Archive& archive) {
 Registry types(const std::vector<std::string>& plugins) {
     Diagnostics diagnostics;
     Registry out = shipped_types();
-    plugin::add(plugin::load(plugin::find(plugins, {}, {}, diagnostics), out, diagnostics), out);
+    plugin::add(plugin::load(plugin::find(plugins, {}, {}, diagnostics), plugin::Use::read, out, diagnostics),
+                out);
     throw_errors(diagnostics);
     return out;
 }
 
 Run open(const std::string& system, const std::string& text, const OpenOptions& options,
-         Diagnostics* warnings) {
+         Diagnostics* warnings, const InputFiles* resumed_files) {
     RunSpec spec;
     RunInput& input = spec.input;
     input.system = system, input.text = text, input.world = options.world, input.seed = options.seed,
@@ -82,6 +83,7 @@ Run open(const std::string& system, const std::string& text, const OpenOptions& 
     input.lenient = options.lenient, input.noise = options.noise,
     input.real_time_factor = options.real_time_factor;
     for (const auto& setting : options.settings) input.settings.push_back({setting});
+    if (resumed_files) input.resumed_files = *resumed_files;
     Diagnostics diagnostics;
     const Sources sources = read_sources(input, diagnostics);
     auto loaded = assemble(sources, input, diagnostics);

@@ -18,7 +18,7 @@ SystemFile make_file(std::optional<model::System> model, std::string path, std::
                      Diagnostics diagnostics, Diagnostics* warnings) {
     throw_errors(diagnostics);
     SystemFile out{std::move(*model), std::move(path), std::move(plugins), nullptr};
-    out.types = std::make_shared<Registry>(known_types(load_plugins(out.plugins, out.path, diagnostics)));
+    out.types = std::make_shared<Registry>(known_types(plugins_to_read(out.plugins, out.path, diagnostics)));
     throw_errors(diagnostics);
     if (warnings) *warnings = std::move(diagnostics);
     return out;

@@ -27,6 +27,13 @@ int build_plugin(const BuildPluginOptions& o) {
           o.output.empty()
               ? fmt::format(", or from systems in '{}' as it is", folder.empty() ? "." : folder.string())
               : "");
+    const auto plugins = plugin::folder_of(output);
+    if (plugin::is_trusted(plugins)) return fine;
+    Diagnostics diagnostics;
+    plugin::trust(plugins, diagnostics);
+    print(stderr, "{}", format(diagnostics));
+    if (!diagnostics.failed())
+        print("'{}' is trusted from now on; forage trust --remove ends this\n", plugins);
     return fine;
 }
 

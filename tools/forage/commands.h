@@ -116,6 +116,11 @@ struct BuildPluginOptions {
     bool debug = false;
 };
 
+struct TrustOptions {
+    std::string folder;  ///< empty: list the trusted ones
+    bool remove = false;
+};
+
 int run(const RunOptions& options);
 /// Runs to the end, with a progress line and a summary. Returns the exit status.
 int run_to_end(const RunOptions& options, PreparedRun& prepared);
@@ -151,5 +156,9 @@ int create(const NewOptions& options);
 /// Compiles a source file to a plugin, with the compiler in CXX or else c++, and checks that it can be
 /// loaded.
 int build_plugin(const BuildPluginOptions& options);
+/// Lists the folders whose plugins are trusted, or changes the list.
+int trust(const TrustOptions& options);
+/// On a terminal, asks whether the plugins of a run in folders that are not trusted may be loaded.
+void ask_for_trust(const RunInput& input);
 
 }  // namespace forage::tool

@@ -45,6 +45,26 @@ std::string about_import(model::System& system, const std::string& id) {
         model::trim(process.name), separated(groups, ", "));
 }
 
+/// Warns that relative paths in parameters stay as they are when the types are those of plugins that are not
+/// loaded.
+void warn_of_paths(const ConvertOptions& o, const model::System& system, const Registry& types,
+                   Diagnostics& diagnostics) {
+    const auto folder = [](const std::string& file) {
+        return fs::absolute(file).lexically_normal().parent_path();
+    };
+    if (types.unloaded.empty() || folder(o.input) == folder(o.output)) return;
+    const auto is_unknown = [&](const model::Process& p) {
+        return (p.module && !types.module(p.module->type)) ||
+               std::ranges::any_of(p.groups, [&](const auto& g) { return !types.neuron(g.neuron.type); });
+    };
+    if (std::ranges::any_of(system.processes, is_unknown))
+        diagnostics.warning({},
+                            fmt::format("the plugins in '{}' are not loaded: relative paths in parameters of "
+                                        "their types are not changed",
+                                        types.unloaded.front().folder),
+                            types.unloaded.front().hint);
+}
+
 std::string process_id(const model::System& system, const std::string& wanted, Diagnostics& diagnostics) {
     const auto found = model::items_named(system.processes, wanted);
     if (!found.empty()) return system.processes[found.front()].id;
@@ -70,7 +90,7 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
         return xml::write_process(*file);
     }
     auto system = xml::read_system(o.input, diagnostics);
-    const auto plugins = load_plugins(o.plugins, o.input, diagnostics);  // their parameters may name files
+    const auto plugins = plugins_to_read(o.plugins, o.input, diagnostics);  // their parameters may name files
     if (!system) return {};
     for (const auto& path : o.imports)
         if (auto file = xml::read_process(path, diagnostics); file && !diagnostics.failed()) try {
@@ -87,7 +107,9 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
         return {};
     }
     if (!to_process) {
-        model::move_files(*system, o.input, o.output, known_types(plugins));
+        const Registry types = known_types(plugins);
+        warn_of_paths(o, *system, types, diagnostics);
+        model::move_files(*system, o.input, o.output, types);
         return xml::write_system(*system);
     }
     if (o.extract.empty()) {

@@ -83,6 +83,8 @@ int program(int argc, char** argv) {
     StudioCommand studio_options;
     add_studio(app, studio_options);
     add_build_plugin(app, build_options);
+    TrustOptions trust_options;
+    add_trust(app, trust_options);
     auto& check_command =
         *app.add_subcommand("check", "Check a system (and a world) and report all mistakes");
     add_input(check_command, check_input);
@@ -194,6 +196,7 @@ int program(int argc, char** argv) {
         if (app.got_subcommand("completion")) return print("{}", completion(app, shell)), fine;
         if (app.got_subcommand("new")) return create(new_options);
         if (app.got_subcommand("build-plugin")) return build_plugin(build_options);
+        if (app.got_subcommand("trust")) return trust(trust_options);
         if (app.got_subcommand("schema")) return schema(schema_options);
         return types(type, plugins);
     } catch (const forage::InputError& e) {  // its text has the words "error" and "hint"

@@ -93,10 +93,11 @@ CLI::Option* add_plot_format(CLI::App& command, std::string& format) {
 }
 
 void add_plugins(CLI::App& command, std::vector<std::string>& plugins) {
-    repeated(
-        command.add_option("--plugin", plugins,
-                           "Plugin with more types (.so), or a folder of plugins, in addition to those in "
-                           "FORAGE_PLUGIN_PATH and in the folder plugins beside the system; may be repeated"))
+    repeated(command.add_option(
+                 "--plugin", plugins,
+                 "Plugin with more types (.so), or a folder of plugins, in addition to those in "
+                 "FORAGE_PLUGIN_PATH and in the folder plugins beside the system, if 'forage trust' "
+                 "has trusted it; may be repeated"))
         ->option_text("PATH");
 }
 
@@ -351,6 +352,16 @@ void add_build_plugin(CLI::App& app, BuildPluginOptions& o) {
     command.add_option("-o,--output", o.output, "Plugin to write [plugins/NAME.so beside FILE]")
         ->option_text("FILE");
     command.add_flag("--debug", o.debug, "For a debugger; the plugin checks each index, and is slower");
+}
+
+void add_trust(CLI::App& app, TrustOptions& o) {
+    auto& command = *app.add_subcommand("trust", "List the folders whose plugins are loaded, or add one");
+    command.footer(
+        "Plugins are programs. A run loads those in the folder plugins beside its system only if this folder "
+        "is trusted;\n--plugin PATH and FORAGE_PLUGIN_PATH need no trust.\nExample:\n  forage trust plugins");
+    command.add_option("FOLDER", o.folder, "Folder with plugins (.so), or with a folder plugins")
+        ->option_text(" ");
+    command.add_flag("--remove", o.remove, "Trust it no longer");
 }
 
 }  // namespace forage::tool

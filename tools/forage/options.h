@@ -42,5 +42,6 @@ void add_edit(CLI::App& app, EditOptions& o);
 void add_new(CLI::App& app, NewOptions& options);
 void add_studio(CLI::App& app, StudioCommand& options);
 void add_build_plugin(CLI::App& app, BuildPluginOptions& o);
+void add_trust(CLI::App& app, TrustOptions& o);
 
 }  // namespace forage::tool

@@ -94,6 +94,8 @@ int resume(const ResumeOptions& o, const RunParser& parse) {
             options.spec.directory = directory;
             options.quiet |= o.quiet;
             if (o.threads > 0) options.spec.threads = o.threads;
+            options.spec.input.resumed_files = found->origin.files;
+            ask_for_trust(options.spec.input);
             Diagnostics diagnostics;
             const Sources sources = read_sources(options.spec.input, diagnostics);
             auto prepared = restore(*found, options.spec, sources, diagnostics);

@@ -18,6 +18,7 @@ int run(const RunOptions& o) {
     if (!(spec.recordings.empty() && spec.plots.empty()) && spec.directory.empty())
         diagnostics.error({}, "--record and --plot need a directory to write to",
                           "leave out -o '' or name one");
+    ask_for_trust(spec.input);
     const Sources sources = read_sources(spec.input, diagnostics);
     auto prepared = prepare(sources, spec, diagnostics);
     if (prepared && !spec.directory.empty()) clear_directory(spec, diagnostics);

@@ -92,7 +92,7 @@ void list(std::string_view kind, const Map& types) {
 /// cannot be loaded.
 std::optional<Registry> registry_with(const std::vector<std::string>& plugins) {
     Diagnostics diagnostics;
-    const auto loaded = load_plugins(plugins, "", diagnostics);
+    const auto loaded = plugins_to_read(plugins, "", diagnostics);
     print(stderr, "{}", format(diagnostics));
     if (diagnostics.failed()) return std::nullopt;
     return known_types(loaded);

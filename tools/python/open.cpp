@@ -57,7 +57,7 @@ std::shared_ptr<PythonRun> open_run(const std::variant<Path, SystemPointer>& sys
 }
 
 /// Resumes a run from what save() wrote: bytes, a file that is open to be read, or the path of a file.
-std::shared_ptr<PythonRun> resume_run(const py::object& state) {
+std::shared_ptr<PythonRun> resume_run(const py::object& state, bool trusted) {
     std::string bytes;
     if (py::isinstance<py::bytes>(state))
         bytes = state.cast<std::string>();
@@ -68,7 +68,7 @@ std::shared_ptr<PythonRun> resume_run(const py::object& state) {
         bytes.assign(std::istreambuf_iterator<char>(in), {});
     }
     const py::gil_scoped_release others;
-    return std::make_shared<PythonRun>(resume(bytes));
+    return std::make_shared<PythonRun>(resume(bytes, trusted));
 }
 
 py::object save(PythonRun& self, const py::object& file) {
@@ -322,7 +322,7 @@ system: the path of the file, or a System.
 world: the path of a world file (.world) in which its robots live; none without it.
 seed: decides everything random.
 settings: parameters by name, {"Process/Group.threshold": 0.5}, or texts as for `forage run --set`.
-plugins: shared objects with types, and folders of them, in addition to FORAGE_PLUGIN_PATH and the folder "plugins" beside the system.
+plugins: shared objects with types, and folders of them, in addition to FORAGE_PLUGIN_PATH and the folder "plugins" beside the system, if `forage trust` has trusted it.
 threads: the largest number of threads that share a cycle, 1 to 1024; the numbers do not depend on it.
 lenient: whether mistakes that the original accepts are warnings, not errors.
 noise: whether motors and sensors are noisy.
@@ -333,10 +333,12 @@ overwrite: groups that will be overwritten, which may also be read.
 
 Raises InputError with all mistakes, and issues InputWarning.)");
     module.def(
-        "resume", &resume_run, "state"_a,
+        "resume", [](const py::object& state) { return resume_run(state, false); }, "state"_a,
         R"(Continues a run from what Run.save_state() returned or wrote: bytes, a path, or a file that is open to read bytes.
 
+Plugins that the state names are loaded if `forage trust` has trusted their folder, or this program has loaded them before.
 Raises InputError when the state is damaged, or the files of the system or the world have changed.)");
+    module.def("_resumed", [](const py::bytes& state) { return resume_run(state, true); });
 }
 
 }  // namespace forage::python

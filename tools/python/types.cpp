@@ -418,16 +418,19 @@ py::list list_types(const std::vector<std::filesystem::path>& plugins) {
 }
 
 std::string build(const std::string& source, const std::string& output, bool debug,
-                  const std::string& package) {
+                  const std::string& package, bool trust) {
     const py::gil_scoped_release others;
     std::string prefix = installation_above(package);
     for (const char* usual : {"/usr/local", "/usr"})  // a package of pip may be in a folder of its own
         if (prefix.empty()) prefix = installation_above(usual);
-    return build_plugin({.source = source,
-                         .output = output,
-                         .debug = debug,
-                         .installation = prefix.empty() ? "/usr" : prefix,
-                         .collect = true});
+    auto made = build_plugin({.source = source,
+                              .output = output,
+                              .debug = debug,
+                              .installation = prefix.empty() ? "/usr" : prefix,
+                              .collect = true});
+    Diagnostics ignored;  // the plugin can be named wherever it is used
+    if (trust) plugin::trust(plugin::folder_of(made), ignored);
+    return made;
 }
 
 }  // namespace

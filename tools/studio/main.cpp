@@ -78,6 +78,7 @@ int serve(const StudioCommand& command) {
     options.ticket = command.open;
     options.port = static_cast<std::uint16_t>(command.port);
     options.shipped = installation() / "share/forage/systems";
+    ask_for_trust(options.input);
     note_signals("the studio");
     std::string redirect;
     const auto ready = [&](const studio::Ready& studio) {

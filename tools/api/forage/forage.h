@@ -32,8 +32,8 @@ struct OpenOptions {
     std::string world = {};                  ///< file of the world in which the robots live; none when empty
     std::uint64_t seed = 1;                  ///< decides everything random
     std::vector<std::string> settings = {};  ///< "Process/Group.parameter=value", as for `forage run --set`
-    /// Shared objects and folders of them, in addition to FORAGE_PLUGIN_PATH and the folder "plugins" beside
-    /// the system.
+    /// Shared objects and folders of them, in addition to FORAGE_PLUGIN_PATH and the trusted folder "plugins"
+    /// beside the system.
     std::vector<std::string> plugins = {};
     int threads = 1;       ///< largest number of threads; the results do not depend on it
     bool lenient = false;  ///< whether mistakes that the original accepts are warnings, not errors
@@ -66,9 +66,11 @@ Run open(model::System system, Registry types, std::unique_ptr<Environment> envi
 /// run that was not opened from a file or has other observers, and engine::RunError for modules of a type
 /// that does not declare what it keeps.
 std::string save_state(Run& run);
-/// Opens the run again and continues from the state. Throws InputError when its files have changed or cannot
-/// be read, CheckpointError and ArchiveError when `state` is not one or does not fit.
-Run resume(std::string_view state);
+/// Opens the run again and continues from the state. Plugins that the state names are loaded when their
+/// folder is trusted (`forage trust`), when this program has loaded them before, or when the state is
+/// `trusted`. Throws InputError when its files have changed or cannot be read, CheckpointError and
+/// ArchiveError when `state` is not one or does not fit.
+Run resume(std::string_view state, bool trusted = false);
 
 /// Runs what `spec` describes to its end, and writes recordings, pictures and tables into spec.directory, as
 /// `forage run` does. RunOutcome::problems says what failed during the run. Throws InputError for mistakes in

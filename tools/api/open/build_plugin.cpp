@@ -16,6 +16,7 @@
 #include <unistd.h>
 
 #include "core/base/output_files.h"
+#include "core/plugin/declarations.h"
 #include "core/plugin/plugin.h"
 #include "core/run/input_error.h"
 #include "tools/api/open/sources.h"
@@ -126,7 +127,14 @@ std::vector<std::string> command(const PluginBuild& build, const std::string& co
     return words;
 }
 
-/// Compiles to partial(output), and loads the result once.
+/// Keeps others from writing a file or a folder: Forage loads no plugin that they may change.
+void make_private(const fs::path& path) {
+    std::error_code ignored;
+    fs::permissions(path, fs::perms::group_write | fs::perms::others_write, fs::perm_options::remove,
+                    ignored);
+}
+
+/// Compiles to partial(output), loads the result once, and writes its declarations.
 void compile_and_check(const PluginBuild& build, const std::string& output, Diagnostics& diagnostics) {
     const char* named = std::getenv("CXX");
     const std::string compiler = named && *named ? named : "c++";
@@ -141,7 +149,11 @@ void compile_and_check(const PluginBuild& build, const std::string& output, Diag
         return diagnostics.error(
             {}, fmt::format("'{}' does not compile; the compiler says why above", build.source));
     Diagnostics found;
-    plugin::load({partial(output)}, shipped_types(), found);  // reports all further mistakes
+    make_private(partial(output));
+    const auto built = plugin::load({{partial(output)}}, plugin::Use::run, shipped_types(), found);
+    if (!found.failed() && !built.empty())
+        write_file(plugin::declarations_path(output),
+                   plugin::declarations(built.front().types, partial(output)));
     for (Diagnostic d : found.all()) {
         for (auto at = d.message.find(partial(output)); at != d.message.npos;
              at = d.message.find(partial(output), at))
@@ -169,6 +181,7 @@ std::string build_plugin(const PluginBuild& build) {
     const auto folder = fs::path(output).parent_path();
     const bool new_folder = !folder.empty() && !fs::exists(folder);
     if (!folder.empty()) make_directory(folder.string());
+    if (new_folder) make_private(folder);
     compile_and_check(build, output, diagnostics);
     if (diagnostics.failed()) {
         std::error_code ignored;

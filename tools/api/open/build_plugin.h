@@ -15,8 +15,9 @@ struct PluginBuild {
 };
 
 /// Compiles a source file to a plugin, with the compiler in CXX or else c++ and the options in CXXFLAGS, and
-/// checks that it can be loaded. Returns the path of the plugin. Throws InputError, and std::runtime_error
-/// when a folder cannot be made; nothing new is left behind then.
+/// checks that it can be loaded. Writes its declarations beside it (core/plugin/declarations.h). Returns the
+/// path of the plugin. Throws InputError, and std::runtime_error when a folder cannot be made; nothing new is
+/// left behind then.
 std::string build_plugin(const PluginBuild& build);
 
 /// The nearest folder above `path` that holds headers and libraries for plugins; empty when there is none.

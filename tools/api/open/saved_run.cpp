@@ -162,7 +162,7 @@ std::string save_state(Run& run) {
     return sealed(out.bytes());
 }
 
-Run resume(std::string_view state) {
+Run resume(std::string_view state, bool trusted) {
     const std::string content = unsealed(state, "the state of the run");
     Archive archive{std::string_view(content)};
     std::string how, list;
@@ -175,7 +175,7 @@ Run resume(std::string_view state) {
                                           origin.version, FORAGE_VERSION));
     check_files(origin.files);
     check_types(origin.types);
-    Run run = open(origin.system, origin.text, origin.options, nullptr);
+    Run run = open(origin.system, origin.text, origin.options, nullptr, trusted ? nullptr : &origin.files);
     Archive observers{std::string_view(list)};
     double overrun = 0;
     for (; count > 0; --count) restore(observers, run, overrun);

@@ -15,8 +15,9 @@ namespace forage {
 std::string origin_of(const std::string& system, const std::string& text, OpenOptions options,
                       const InputFiles& files, std::map<std::string, std::string> types);
 
-/// Opens the file `system`, or `text` as if it were that file when it is not empty.
+/// Opens the file `system`, or `text` as if it were that file when it is not empty. `resumed_files` are those
+/// of a run that is resumed from data that the user need not trust (RunInput); otherwise null.
 Run open(const std::string& system, const std::string& text, const OpenOptions& options,
-         Diagnostics* warnings);
+         Diagnostics* warnings, const InputFiles* resumed_files = nullptr);
 
 }  // namespace forage

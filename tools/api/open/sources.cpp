@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -54,7 +55,8 @@ void add(InputFiles& all, const bug::Model& model) {
 
 InputFiles files_of_system(const Sources& sources) {
     InputFiles out = system_files(*sources.system);
-    for (const auto& p : sources.plugins) out[p.path] = file_digest(p.path);
+    for (const auto& p : sources.plugins)
+        if (p.loaded) out[p.path] = file_digest(p.path);
     return out;
 }
 
@@ -176,6 +178,32 @@ std::optional<model::System> read_any(const std::string& path, Diagnostics& diag
     return system;
 }
 
+std::vector<plugin::File> find_plugins(const RunInput& input, Diagnostics& diagnostics) {
+    const char* path = std::getenv("FORAGE_PLUGIN_PATH");
+    return plugin::find(input.plugins, path ? path : "", input.system, diagnostics, !input.resumed_files);
+}
+
+/// Drops the plugins that a resumed run did not have, and reports those that have changed since.
+void keep_those_of(const std::map<std::string, std::string>& run, std::vector<plugin::File>& files,
+                   Diagnostics& diagnostics) {
+    std::erase_if(files, [&](const plugin::File& file) {
+        auto before = run.find(file.path);
+        if (before == run.end()) before = run.find(std::filesystem::absolute(file.path).string());
+        if (before == run.end()) return true;
+        if (before->second == file_digest(file.path)) return false;
+        diagnostics.error({}, fmt::format("plugin '{}' has changed since the run began", file.path),
+                          "a run can only be resumed with the same files: restore it");
+        return true;
+    });
+}
+
+std::vector<plugin::Plugin> load_plugins(const RunInput& input, plugin::Use use, Diagnostics& diagnostics) {
+    auto files = find_plugins(input, diagnostics);
+    if (input.resumed_files) keep_those_of(*input.resumed_files, files, diagnostics);
+    if (files.empty()) return {};
+    return plugin::load(files, use, shipped_types(), diagnostics);
+}
+
 }  // namespace
 
 std::string read_input_file(const std::string& path) {
@@ -205,12 +233,20 @@ Registry shipped_types() {
     return registry;
 }
 
-std::vector<plugin::Plugin> load_plugins(const std::vector<std::string>& named, const std::string& system,
-                                         Diagnostics& diagnostics) {
-    const char* path = std::getenv("FORAGE_PLUGIN_PATH");
-    const auto files = plugin::find(named, path ? path : "", system, diagnostics);
-    if (files.empty()) return {};
-    return plugin::load(files, shipped_types(), diagnostics);
+std::vector<plugin::Plugin> plugins_to_read(const std::vector<std::string>& named, const std::string& system,
+                                            Diagnostics& diagnostics) {
+    RunInput input;
+    input.system = system, input.plugins = named;
+    return load_plugins(input, plugin::Use::read, diagnostics);
+}
+
+std::vector<std::string> untrusted_folders(const RunInput& input) {
+    Diagnostics none;
+    std::set<std::string> out;
+    for (const auto& file : find_plugins(input, none))
+        if (const auto folder = plugin::folder_of(file.path); !file.named && !plugin::is_trusted(folder))
+            out.insert(folder);
+    return {out.begin(), out.end()};
 }
 
 Registry known_types(const std::vector<plugin::Plugin>& plugins) {
@@ -223,7 +259,7 @@ namespace {
 
 /// The sources with this first system, which is empty when it could not be read.
 Sources joined(Sources sources, std::optional<model::System> first, const RunInput& input,
-               Diagnostics& diagnostics) {
+               Diagnostics& diagnostics, plugin::Use use = plugin::Use::run) {
     auto& system = sources.system = std::move(first);
     for (const auto& other : sources.more) {
         if (!system) continue;
@@ -235,7 +271,7 @@ Sources joined(Sources sources, std::optional<model::System> first, const RunInp
         model::join(*system, other);
     }
     const int errors_before = diagnostics.errors();
-    sources.plugins = load_plugins(input.plugins, input.system, diagnostics);
+    sources.plugins = load_plugins(input, use, diagnostics);
     sources.plugins_failed = diagnostics.errors() > errors_before;
     return sources;
 }
@@ -251,11 +287,15 @@ Sources read_others(const RunInput& input, Diagnostics& diagnostics) {
     return out;
 }
 
+std::optional<model::System> read_first(const RunInput& input, Diagnostics& diagnostics) {
+    return input.text.empty() ? read_any(input.system, diagnostics)
+                              : xml::parse_system(input.system, input.text, diagnostics);
+}
+
 }  // namespace
 
 Sources with_first_system(Sources sources, const RunInput& input, Diagnostics& diagnostics) {
-    auto first = input.text.empty() ? read_any(input.system, diagnostics)
-                                    : xml::parse_system(input.system, input.text, diagnostics);
+    auto first = read_first(input, diagnostics);
     return joined(std::move(sources), std::move(first), input, diagnostics);
 }
 
@@ -285,7 +325,8 @@ std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Di
     if (sources.replay) play(*sources.replay, out.system);
     out.registry = shipped_types();
     plugin::add(sources.plugins, out.registry);
-    for (const auto& p : sources.plugins) out.plugins.push_back(p.path);
+    for (const auto& p : sources.plugins)
+        if (p.loaded) out.plugins.push_back(p.path);
     if (sources.system && !sources.plugins_failed) {
         bind_robots(input.robots, out.registry, out.system, diagnostics);
         for (const auto& setting : input.settings)
@@ -300,7 +341,10 @@ std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Di
 }
 
 std::optional<Loaded> load(const RunInput& input, Diagnostics& diagnostics) {
-    return assemble(read_sources(input, diagnostics), input, diagnostics);
+    auto others = read_others(input, diagnostics);
+    auto first = read_first(input, diagnostics);
+    return assemble(joined(std::move(others), std::move(first), input, diagnostics, plugin::Use::read), input,
+                    diagnostics);
 }
 
 std::optional<engine::Simulation> compile(const std::optional<Loaded>& loaded, std::uint64_t seed,

@@ -11,6 +11,7 @@
 #include "core/base/drive_table.h"
 #include "core/model/system.h"
 #include "core/plugin/plugin.h"
+#include "core/plugin/trust.h"
 #include "core/run/input_files.h"
 #include "core/run/run.h"
 #include "core/run/run_spec.h"
@@ -43,14 +44,16 @@ Registry forage_types();
 /// The types that every system may use without a plugin: forage_types() and those of the running program
 /// (program_types.h).
 Registry shipped_types();
-/// Loads the plugins in `named`, in FORAGE_PLUGIN_PATH and in the folder "plugins" beside the file `system`,
-/// which may be empty.
-std::vector<plugin::Plugin> load_plugins(const std::vector<std::string>& named, const std::string& system,
-                                         Diagnostics& diagnostics);
+/// Loads the plugins in `named` and in FORAGE_PLUGIN_PATH, and reads the declarations of those in the folder
+/// "plugins" beside the file `system`, which may be empty. Nothing of the latter is run.
+std::vector<plugin::Plugin> plugins_to_read(const std::vector<std::string>& named, const std::string& system,
+                                            Diagnostics& diagnostics);
+/// The folders of the plugins of a run that will not be loaded until the user trusts them.
+std::vector<std::string> untrusted_folders(const RunInput& input);
 /// shipped_types() and those of the plugins.
 Registry known_types(const std::vector<plugin::Plugin>& plugins);
 
-/// Reads the files. Reports those that cannot be read.
+/// Reads the files, for a run. Reports those that cannot be read.
 Sources read_sources(const RunInput& input, Diagnostics& diagnostics);
 /// The same for a first system that has been read.
 Sources read_sources(const RunInput& input, model::System first, Diagnostics& diagnostics);
@@ -60,7 +63,7 @@ Sources with_first_system(Sources sources, const RunInput& input, Diagnostics& d
 /// Assembles types, world and system, with the settings of the input. Empty when `diagnostics` has an error,
 /// also from before.
 std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Diagnostics& diagnostics);
-/// Does both: read_sources() and assemble().
+/// Does both for a system that does not run: plugins beside it are not loaded.
 std::optional<Loaded> load(const RunInput& input, Diagnostics& diagnostics);
 /// Compiles all groups and connections of what was loaded, without starting a run, to check or describe it.
 /// Empty when `loaded` is, and when `diagnostics` got an error.

@@ -513,7 +513,8 @@ def build_plugin(source: _Path, *, name: str = "plugin", directory: _Path | None
 
     source: a text in C++, or the path (a pathlib.Path) of a file.
     name: the name of the plugin's file, without its end, and of the source in messages.
-    directory: the folder for the plugin, which is made. Without it, the plugin is in a temporary folder and goes with this program.
+    directory: the folder for the plugin, which is made and trusted, as `forage trust` does. Without it, the plugin is in a temporary folder and goes
+        with this program.
     debug: whether it is made for a debugger, and checks each index.
 
     Raises InputError with the errors of the compiler, each with its line, and for types that do not work.
@@ -528,4 +529,4 @@ def build_plugin(source: _Path, *, name: str = "plugin", directory: _Path | None
             file.write(source)
     else:
         path = os.fspath(source)
-    return Plugin(_forage._build_plugin(path, os.path.join(folder, f"{name}.so"), debug, os.path.dirname(os.path.abspath(__file__))))
+    return Plugin(_forage._build_plugin(path, os.path.join(folder, f"{name}.so"), debug, os.path.dirname(os.path.abspath(__file__)), directory is not None))
