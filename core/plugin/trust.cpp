@@ -10,6 +10,8 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <grp.h>
+#include <pwd.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -60,6 +62,15 @@ void write_lines(const std::string& path, int flags, const std::vector<std::stri
     if (file >= 0) close(file);
 }
 
+/// Whether a group is that of this user alone, as Ubuntu and others give each user one, with a umask of 002.
+bool is_private(gid_t group) {
+    const passwd* user = geteuid() == 0 ? nullptr : getpwuid(geteuid());
+    if (!user || user->pw_gid != group) return false;
+    const std::string name = user->pw_name;
+    const auto* entry = ::getgrgid(group);
+    return entry && entry->gr_name == name && !*entry->gr_mem;
+}
+
 }  // namespace
 
 std::optional<Diagnostic> insecure(const std::string& path) {
@@ -71,7 +82,8 @@ std::optional<Diagnostic> insecure(const std::string& path) {
             fmt::format("'{}' belongs to another user (number {}), who may change it", path, file.st_uid),
             fmt::format("a plugin is a program: if you trust it, copy it, or 'chown {} {}'", geteuid(),
                         shell_word(path)));
-    if ((file.st_mode & (S_IWGRP | S_IWOTH)) == 0) return std::nullopt;
+    const bool group_writes = (file.st_mode & S_IWGRP) != 0 && !is_private(file.st_gid);
+    if (!group_writes && (file.st_mode & S_IWOTH) == 0) return std::nullopt;
     const bool shared = (file.st_mode & S_ISVTX) != 0;
     return error_at(0, 0, fmt::format("other users may write '{}'", path),
                     shared ? "a plugin is a program: move it to a folder that only you may write"

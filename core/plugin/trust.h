@@ -10,7 +10,8 @@
 namespace forage::plugin {
 
 /// The error of a file or folder that other users may change: its owner is neither this user nor root, or its
-/// group or others may write it. Empty for a secure file, and when there is no such file.
+/// group (unless it is that of this user alone) or others may write it. Empty for a secure file, and when
+/// there is no such file.
 std::optional<Diagnostic> insecure(const std::string& path);
 /// The error of a shared object that is insecure(), or is in such a folder.
 std::optional<Diagnostic> insecure_plugin(const std::string& path);
