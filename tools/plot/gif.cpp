@@ -8,6 +8,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <gif_lib.h>
 
@@ -64,8 +65,13 @@ void GifFile::check(bool good) const {
 
 void GifFile::begin(const Pixels& frame) {
     int error = 0;
-    file_ = content_ ? EGifOpen(content_, append_bytes, &error)
-                     : EGifOpenFileName((name_ + ".part").c_str(), false, &error);
+    if (content_) {
+        file_ = EGifOpen(content_, append_bytes, &error);
+    } else {  // giflib itself makes files that only their owner can read
+        const int part = ::open((name_ + ".part").c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+        check(part >= 0);
+        file_ = EGifOpenFileHandle(part, &error);
+    }
     check(file_ != nullptr);
     width_ = frame.width, height_ = frame.height;
     const auto pixels = static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_);
