@@ -196,7 +196,10 @@ class Reference(unittest.TestCase):
         self.assertEqual(*originals)
         for element in ("PatternMapped", "ArbRect", "AttenuationFunction", "DelayFunction", "DiagramIcon", "DiagramLine"):
             self.assertIn(f"<{element}", originals[0])
+        printed = self.forage("convert", "terse.iqr", "-")
         self.forage("convert", "terse.iqr", "terse.iqr")
+        self.assertEqual(printed, (self.here / "terse.iqr").read_text())
+        self.assertFalse((self.here / "-").exists())
         self.assertNotIn("Pattern", (self.here / "terse.iqr").read_text())
 
 

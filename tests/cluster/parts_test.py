@@ -64,6 +64,13 @@ class Parts(ExperimentTest):
         self.assertFalse((self.folder / "here").exists())
         self.assertTrue((self.folder / name / "parts").exists())
 
+    def test_a_script_has_all_options_for_slurm(self):
+        done = self.forage("--slurm", "--dry-run", "--partition", "long", "--sbatch", "--mem=1G", "--time", "1:00", "--sbatch", "--nice")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        lines = (self.folder / "parts/slurm/parts.sh").read_text().splitlines()
+        for option in ("--partition=long", "--mem=1G", "--time=1:00", "--nice"):
+            self.assertEqual(lines.count(f"#SBATCH {option}"), 1, option)
+
     def test_missing_parts(self):
         self.part("1/3")
         merged = self.forage("--merge")

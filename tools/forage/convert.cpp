@@ -20,6 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+bool is_standard_output(const std::string& path) { return path == "-"; }
 bool is_process_file(const std::string& path) { return fs::path(path).extension() == ".iqrProcess"; }
 
 /// Warns about the connections of a process to groups outside it, which are not extracted.
@@ -108,8 +109,10 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
     }
     if (!to_process) {
         const Registry types = known_types(plugins);
-        warn_of_paths(o, *system, types, diagnostics);
-        model::move_files(*system, o.input, o.output, types);
+        if (!is_standard_output(o.output)) {  // of which the folder is not known
+            warn_of_paths(o, *system, types, diagnostics);
+            model::move_files(*system, o.input, o.output, types);
+        }
         return xml::write_system(*system);
     }
     if (o.extract.empty()) {
@@ -130,13 +133,15 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
 int convert(const ConvertOptions& options) {
     Diagnostics diagnostics;
     diagnostics.lenient = options.lenient;
-    check_output(options.output, "copy.iqr", diagnostics);
+    const bool prints = is_standard_output(options.output);
+    if (!prints) check_output(options.output, "copy.iqr", diagnostics);
     std::string notes;
     const std::string text = converted(options, notes, diagnostics);
     print(stderr, "{}", format(diagnostics));
     if (diagnostics.failed()) return bad_input;
-    write_file(options.output, text);
-    print("{}", notes);
+    if (!prints) write_file(options.output, text);
+    std::fputs((prints ? text : "").c_str(), stdout);
+    print(prints ? stderr : stdout, "{}", notes);
     return fine;
 }
 

@@ -218,7 +218,12 @@ void add_experiment(CLI::App& app, ExperimentOptions& o) {
     pass_on("--partition", "With --slurm: the partition", "NAME");
     pass_on("--time", "With --slurm: the time limit of a part", "TIME");
     experiment
-        .add_option("--sbatch", o.sbatch, "With --slurm: another option of sbatch, such as --account=ME")
+        .add_option_function<std::vector<std::string>>(
+            "--sbatch",
+            [&o](const std::vector<std::string>& more) {
+                o.sbatch.insert(o.sbatch.end(), more.begin(), more.end());
+            },
+            "With --slurm: another option of sbatch, such as --account=ME")
         ->needs(slurm)
         ->allow_extra_args(false)
         ->option_text("OPTION")
@@ -270,7 +275,9 @@ void add_convert(CLI::App& app, ConvertOptions& o) {
         "Example:\n"
         "  forage convert systems/reactive_foraging.iqr bug.iqrProcess --extract Bug");
     convert.add_option("IN", o.input, "File to read (.iqr or .iqrProcess)")->required()->option_text("FILE");
-    convert.add_option("OUT", o.output, "File to write (.iqr or .iqrProcess); may be the same")
+    convert
+        .add_option("OUT", o.output,
+                    "File to write (.iqr or .iqrProcess); may be the same, or - to print a system")
         ->required()
         ->option_text("FILE");
     repeated(convert.add_option("--import", o.imports,
