@@ -105,6 +105,9 @@ class Hdf5Recording final : public Recording {
         rows_ = std::min(shape_.at(0), cycles_.at(0));
         const Hdf5Handle type(H5Dget_type(set_), H5Tclose, "read a type");
         claimed_ = static_cast<double>(rows_) * static_cast<double>(what_.size() * H5Tget_size(type));
+        if (claimed_ > static_cast<double>(H5Dget_storage_size(set_)))
+            throw std::runtime_error(
+                fmt::format("'{}' claims {} rows, and not all of them are there", place, rows_));
     }
     double claimed() const { return claimed_; }  ///< bytes of all rows in the file, if they are there
 

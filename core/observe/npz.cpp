@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <memory>
@@ -91,7 +93,7 @@ void NpzArchive::extract(std::size_t array, const std::string& npy) const {
     while (out && all <= bytes && (n = zip_fread(in.get(), block.data(), block.size())) > 0)
         out.write(block.data(), n), all += static_cast<std::uint64_t>(n);
     out.close();
-    if (!out) fail("the disk is full");
+    if (!out) fail(std::strerror(errno));
     if (n < 0 || all != bytes) fail("it is damaged");
 }
 

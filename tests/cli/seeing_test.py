@@ -275,8 +275,19 @@ class Claims(Cli):
             for i in range(1000):
                 file[f"P/A/{i}"] = file["P/A/act"]
 
-        for change in (huge, cells, copies):
-            self.refused(change, r"it claims to hold \d+ bytes of numbers, and has \d+ bytes")
+        for change in (huge, cells):
+            self.refused(change, r"'/P/[AB].*' claims \d+ rows, and not all of them are there")
+        self.refused(copies, r"it claims to hold \d+ bytes of numbers, and has \d+ bytes")
+
+    def test_a_hole_in_a_file_holds_nothing(self):
+        def huge(file):
+            for name in ("cycle", "P/A/act"):
+                file[name].resize(10**8, axis=0)
+
+        self.recording(huge)
+        os.truncate(self.here / "x.h5", 10**10)
+        said = self.forage("plot", "x.h5", "-o", "pictures", status=2).stderr
+        self.assertIn("'/P/A/act' claims 100000000 rows, and not all of them are there", said)
 
     def test_groups_are_not_nested_without_bound(self):
         self.refused(lambda file: file.create_group("/".join(["g"] * 3000)), "its groups are nested more than 32 deep")

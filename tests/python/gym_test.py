@@ -322,6 +322,12 @@ def test_mistakes_are_told_when_the_environment_is_made(options, message):
         BugEnv(WORLD, **options)
 
 
+@pytest.mark.parametrize("size", [(0, 3), (-1, 3), (3, 0)])
+def test_a_size_of_no_cells_is_an_error(size):
+    with pytest.raises(forage.InputError, match="cannot have the size"):
+        BugEnv(WORLD, motors={"motor": size})
+
+
 def test_an_unknown_option_and_a_missing_world_are_told():
     with pytest.raises(TypeError, match="steps_per_cycle"):
         BugEnv(WORLD, steps_per_cycle=3)

@@ -198,7 +198,9 @@ PythonExperiment make_sweep(const py::kwargs& given) {
     take(given, "system", e.path), take(given, "world", e.world), take(given, "plugins", plugins);
     take(given, "seeds", e.seeds), take(given, "noise", e.noise), take(given, "until", e.until.text);
     take(given, "real_time_factor", e.real_time_factor), take(given, "trial_timeout", e.trial_timeout);
-    take(given, "cycles", e.cycles), take(given, "seconds", e.seconds), take(given, "trials", e.trials);
+    std::optional<std::int64_t> cycles, trials;
+    take(given, "cycles", cycles), take(given, "seconds", e.seconds), take(given, "trials", trials);
+    e.cycles = count_of("cycles", cycles), e.trials = count_of("trials", trials);
     e.systems = {{e.path}}, e.sweeps = sweeps_of(given["values"]);
     for (const auto& text : assignments(given["settings"])) e.settings.push_back({text});
     Diagnostics diagnostics;

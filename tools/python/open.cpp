@@ -26,7 +26,7 @@ using namespace py::literals;
 using Path = std::filesystem::path;
 using SystemPointer = std::shared_ptr<PythonSystem>;
 using Names = std::optional<std::vector<std::string>>;
-using Count = std::optional<std::uint64_t>;
+using Count = std::optional<std::int64_t>;
 using Seconds = std::optional<double>;
 
 std::shared_ptr<PythonRun> open_run(const std::variant<Path, SystemPointer>& system,
@@ -102,7 +102,10 @@ py::object on_cycle(PythonRun& self, const py::object& callback, std::uint64_t e
 }
 
 RunLength length_of(Count cycles, Seconds seconds, Count trials, double trial_timeout) {
-    return {.cycles = cycles, .seconds = seconds, .trials = trials, .trial_timeout = trial_timeout};
+    return {.cycles = count_of("cycles", cycles),
+            .seconds = seconds,
+            .trials = count_of("trials", trials),
+            .trial_timeout = trial_timeout};
 }
 
 void run_for(PythonRun& self, Count cycles, Seconds seconds, Count trials, const py::object& progress,

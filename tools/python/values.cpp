@@ -18,6 +18,11 @@ std::string class_name(const py::handle& value) {
     return py::type::handle_of(value).attr("__name__").cast<std::string>();
 }
 
+std::optional<std::uint64_t> count_of(const char* name, std::optional<std::int64_t> count) {
+    if (count && *count < 0) throw InputError(fmt::format("{}: {} is less than 0", name, *count));
+    return count;
+}
+
 std::vector<std::string> texts_of(const std::vector<std::filesystem::path>& paths) {
     return {paths.begin(), paths.end()};
 }

@@ -1,7 +1,9 @@
 // Python's values as those of the library, and back.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -52,6 +54,8 @@ void take(const py::kwargs& given, const char* name, T& value) {
     }
 }
 
+/// A number of cycles or trials, which `name` begins the message about. Throws InputError for one below 0.
+std::optional<std::uint64_t> count_of(const char* name, std::optional<std::int64_t> count);
 /// Paths as texts.
 std::vector<std::string> texts_of(const std::vector<std::filesystem::path>& paths);
 /// A value as assignments spell it: true, 0.3, text.

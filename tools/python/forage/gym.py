@@ -50,6 +50,9 @@ def _ports(ports: typing.Any) -> typing.Any:
     if isinstance(ports, str):
         ports = [ports]
     sizes = ports if isinstance(ports, dict) else dict.fromkeys(ports)
+    for name, size in sizes.items():
+        if size and min(size) < 1:
+            raise InputError(f"'{name}' cannot have the size {size!r}: give (rows, columns), each at least 1, or None for the usual size")
     return [(name, *(size or (0, 0))) for name, size in sizes.items()]
 
 
