@@ -1,5 +1,11 @@
 #include "core/observe/manipulation.h"
 
+#include <algorithm>
+#include <iterator>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
 namespace forage::observe {
 
 Manipulation::Manipulation(Settings settings) : s_(std::move(settings)), waited_(s_.every - 1) {}
@@ -14,21 +20,22 @@ void Manipulation::after_groups(RunView& run) {
     if (!s_.starts.empty()) {
         const auto now = static_cast<std::int64_t>(run.time.cycle);
         while (next_ < s_.starts.size() && s_.starts[next_] <= now) ++next_;
-        if (next_ > 0) apply(run.simulation, s_.patterns[next_ - 1]);
+        if (next_ > 0) apply(run, s_.patterns[next_ - 1]);
         return;
     }
     if (++waited_ < s_.every) return;
     waited_ = 0;
-    apply(run.simulation, s_.patterns[s_.backwards ? s_.patterns.size() - 1 - next_ : next_]);
+    apply(run, s_.patterns[s_.backwards ? s_.patterns.size() - 1 - next_ : next_]);
     next_ += s_.step;
     if (next_ < s_.patterns.size()) return;
     next_ = 0;
     over_ = s_.times && ++played_ == *s_.times;
 }
 
-void Manipulation::apply(engine::Simulation& simulation, const std::vector<double>& pattern) const {
+void Manipulation::apply(RunView& run, const std::vector<double>& pattern) {
+    if (!s_.cells.empty()) return clamp_cells(run, pattern);
     const ConstColumn values(pattern.data(), static_cast<Index>(pattern.size()));
-    Column activity = simulation.output(s_.group);
+    Column activity = run.simulation.output(s_.group);
     switch (s_.mode) {
         case Mode::clamp:
             activity = values;
@@ -40,6 +47,25 @@ void Manipulation::apply(engine::Simulation& simulation, const std::vector<doubl
             activity *= values;
             break;
     }
+}
+
+void Manipulation::clamp_cells(RunView& run, const std::vector<double>& pattern) {
+    const auto cycle = static_cast<std::uint64_t>(run.time.cycle);
+    Column activity = run.simulation.output(s_.group);
+    bool first = true;
+    for (const auto* m = earlier_; m; m = m->earlier_) {
+        if (m->applied_ != cycle) continue;
+        first = false;
+        std::vector<int> both;
+        std::ranges::set_intersection(s_.cells, m->s_.cells, std::back_inserter(both));
+        if (!both.empty())
+            throw std::runtime_error(
+                fmt::format("two clamps set cell {} of group '{}' in cycle {}", both.front() + 1,
+                            run.simulation.layout().groups[static_cast<std::size_t>(s_.group)].path, cycle));
+    }
+    if (first) activity = 0.0;
+    for (const int cell : s_.cells) activity[cell] = pattern[static_cast<std::size_t>(cell)];
+    applied_ = cycle;
 }
 
 void Manipulation::declare(engine::Demand& out) const {

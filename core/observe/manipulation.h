@@ -33,14 +33,19 @@ class Manipulation final : public Observer {
         std::optional<std::uint64_t> times{};      ///< how often the list is played; empty for endlessly
         bool backwards = false;                    ///< from the last pattern to the first
         std::optional<Condition> from{}, until{};  ///< empty: from the first cycle, until the last
+        /// Of a clamp, the cells that it sets, ascending; empty for all. The others are 0.
+        std::vector<int> cells{};
 
-        /// Reads or writes all settings but the conditions.
+        /// Reads or writes all settings but the conditions and cells, which only specifications have.
         void checkpoint(Archive& archive) {
-            static_assert(member_count<Settings>() == 10);
+            static_assert(member_count<Settings>() == 11);
             archive(group, mode, patterns, starts, every, step, times, backwards);
         }
     };
     explicit Manipulation(Settings settings);
+    /// Makes this clamp of cells act together with an earlier one of the same group: cells that neither sets
+    /// are 0. after_groups() throws std::runtime_error when both set a cell in the same cycle.
+    void join(const Manipulation& earlier) { earlier_ = &earlier; }
     const Settings& settings() const { return s_; }
 
     /// Begins and ends the manipulation when its conditions first hold.
@@ -50,13 +55,16 @@ class Manipulation final : public Observer {
     void checkpoint(Archive& archive) override { archive(begun_, over_, waited_, next_, played_); }
 
   private:
-    void apply(engine::Simulation& simulation, const std::vector<double>& pattern) const;
+    void apply(RunView& run, const std::vector<double>& pattern);
+    void clamp_cells(RunView& run, const std::vector<double>& pattern);
 
     Settings s_;
     bool begun_ = false, over_ = false;
     std::uint64_t waited_ = 0;  ///< cycles since the last pattern
     std::size_t next_ = 0;  ///< position in playback; with `starts`, the number of patterns that have begun
     std::uint64_t played_ = 0;  ///< how often the list was played to its end
+    const Manipulation* earlier_ = nullptr;
+    std::optional<std::uint64_t> applied_;  ///< the cycle in which it has last clamped cells
 };
 
 }  // namespace forage::observe

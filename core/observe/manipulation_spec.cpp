@@ -51,7 +51,15 @@ class ManipulationReader {
                 m.settings.starts.push_back(start);
                 m.settings.patterns.push_back(std::move(values));
             }
-            out.push_back(std::make_unique<Manipulation>(std::move(m.settings)));
+            auto made = std::make_unique<Manipulation>(std::move(m.settings));
+            if (!made->settings().cells.empty())
+                for (auto it = out.rbegin(); it != out.rend(); ++it)
+                    if ((*it)->settings().group == made->settings().group &&
+                        !(*it)->settings().cells.empty()) {
+                        made->join(**it);
+                        break;
+                    }
+            out.push_back(std::move(made));
         }
         return out;
     }
@@ -120,13 +128,35 @@ class ManipulationReader {
         const expression::Context context{spec.cells.text, option, diagnostics_, spec.cells.at};
         const auto cells = context.parsed(&expression::parse_cell_values);
         if (!cells) return;
-        auto& patterns = find_same(spec, std::move(settings)).settings.patterns;
-        if (patterns.empty())
-            patterns.emplace_back(static_cast<std::size_t>(layout_.groups[column.group].shape.cells),
-                                  spec.mode == Spec::Mode::multiply ? 1 : 0);
-        for (const auto& [source, value] : *cells)
-            if (const auto part = find_part(layout_, column, source, context))
-                patterns.front()[part->numbers.front()] = value;
+        auto& own = find_same(spec, std::move(settings)).settings;
+        if (own.patterns.empty())
+            own.patterns.emplace_back(static_cast<std::size_t>(layout_.groups[column.group].shape.cells),
+                                      spec.mode == Spec::Mode::multiply ? 1 : 0);
+        for (const auto& [source, value] : *cells) {
+            const auto part = find_part(layout_, column, source, context);
+            if (!part) continue;
+            const auto cell = static_cast<int>(part->numbers.front());
+            own.patterns.front()[part->numbers.front()] = value;
+            if (spec.mode != Spec::Mode::clamp) continue;
+            if (is_clamped(spec, own, cell))
+                diagnostics_.error(
+                    spec.cells.at,
+                    fmt::format("{}: '{}' is clamped twice at the same time", option, source.text()),
+                    "keep one of them, or give them times that do not overlap: '...; until "
+                    "cycle 10' and '...; from cycle 10'");
+            own.cells.insert(std::ranges::lower_bound(own.cells, cell), cell);
+        }
+    }
+
+    /// Whether another clamp of the cell is in force whenever this one is, as far as their times tell.
+    bool is_clamped(const Spec& spec, const Settings& own, int cell) const {
+        const auto always = [](const Spec& s) {
+            return s.from.text.empty() && s.until.text.empty() && s.every == 1 && !s.times;
+        };
+        return std::ranges::any_of(made_, [&](const Made& m) {
+            return m.settings.group == own.group && std::ranges::binary_search(m.settings.cells, cell) &&
+                   (&m.settings == &own || always(*m.spec) || always(spec));
+        });
     }
 
     void add_table(const Spec& spec, const Settings& settings) {

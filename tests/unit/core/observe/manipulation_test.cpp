@@ -1,5 +1,7 @@
 #include "core/observe/manipulation.h"
 
+#include "core/model/expression.h"
+#include "core/observe/manipulation_spec.h"
 #include "core/run/run.h"
 #include "tests/unit/core/engine/simulations.h"
 
@@ -74,4 +76,36 @@ TEST_CASE("Each pattern of a table is valid from its cycle until that of the nex
     CHECK(played(limited, 6) == V{11, 11, 45, 67, 11, 11});
     CHECK(played({.patterns = {{2, 3}}, .starts = {-1}}, 2) == V{23, 23});
     CHECK(played({.mode = Manipulation::Mode::add, .patterns = {{2, 3}}, .starts = {1}}, 3) == V{11, 34, 34});
+}
+
+TEST_CASE("Clamps of cells of one group that are in force act together; the other cells are 0") {
+    const auto played_by = [](const std::vector<std::string>& clamps, std::string* said = nullptr) {
+        model::System system;
+        model::add_group(system, model::add_process(system, "P"), "A", 3, 1, "one");
+        Diagnostics diagnostics;
+        Run run = *Run::make(system, registry(), nullptr, {}, diagnostics);
+        std::vector<model::ManipulationSpec> specs;
+        for (const auto& text : clamps)
+            specs.push_back(expression::parse_manipulation(model::ManipulationSpec::Mode::clamp, text));
+        for (auto& m : observe::make_manipulations(specs, run.layout(), false, diagnostics))
+            run.add(std::move(m));
+        if (said)
+            for (const auto& d : diagnostics.all()) *said += d.message + "\n";
+        const auto& a = run.record("P/A");
+        for (int t = 0; t < 4; ++t) run.step();
+        std::vector<double> out;
+        for (int t = 0; t < 4; ++t)
+            out.push_back(100 * a.rows()(t, 0) + 10 * a.rows()(t, 1) + a.rows()(t, 2));
+        return out;
+    };
+    using V = std::vector<double>;
+    CHECK(played_by({"P/A(1,1)=5", "P/A(2,1)=6; from cycle 1"}) == V{500, 560, 560, 560});
+    CHECK(played_by({"P/A(2,1)=6; from cycle 1", "P/A(1,1)=5; until cycle 2"}) == V{500, 560, 60, 60});
+    CHECK(played_by({"P/A(1,1)=5; until cycle 2", "P/A(1,1)=7; from cycle 2"}) == V{500, 500, 700, 700});
+    CHECK(played_by({"P/A(1,1)=5; until cycle 1"}) == V{500, 111, 111, 111});
+    std::string said;
+    played_by({"P/A(1,1)=5", "P/A(2,1)=6", "P/A(1,1)=7"}, &said);
+    CHECK_THAT(said, Catch::Contains("is clamped twice at the same time"));
+    CHECK_THROWS_WITH(played_by({"P/A(1,1)=5; until cycle 3", "P/A(1,1)=7; from cycle 1"}),
+                      "two clamps set cell 1 of group 'P/A' in cycle 1");
 }
