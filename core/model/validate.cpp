@@ -63,6 +63,12 @@ class Validator {
             if (process.module) check_module(process);
         }
         for (const auto& connection : system_.connections) check_connection(connection);
+        for (const auto& [parameter, unusual] : unusual_)
+            out_.warning(unusual.where,
+                         unusual.count == 1 ? unusual.message
+                                            : fmt::format("{}, one of {} such values in this file",
+                                                          unusual.message, unusual.count),
+                         unusual.hint);
     }
 
   private:
@@ -148,10 +154,18 @@ class Validator {
             }
             if (s.value_at.file &&
                 outside(*value, p->range))  // values without a file were checked when they were set
-                out_.warning(s.value_at, fmt::format("{} = {} is outside its usual range", p->name, s.value),
-                             fmt::format("{} ({}) is meant for {} to {}; the value is used as it is", p->name,
-                                         p->label, to_text(p->range->low), to_text(p->range->high)));
+                note_unusual(s, *p);
         }
+    }
+
+    /// Collects values outside of the usual range: a system may have hundreds of them.
+    void note_unusual(const Setting& s, const Parameter& p) {
+        const auto hint = fmt::format("{} ({}) is meant for {} to {}; the value is used as it is", p.name,
+                                      p.label, to_text(p.range->low), to_text(p.range->high));
+        auto& unusual = unusual_[{s.value_at.file.get(), hint}];
+        if (unusual.count++ > 0) return;
+        unusual.where = s.value_at, unusual.hint = hint;
+        unusual.message = fmt::format("{} = {} is outside its usual range", p.name, s.value);
     }
 
     /// The location of the setting that a type's check() names, or that of the use as a whole.
@@ -477,6 +491,12 @@ class Validator {
     Diagnostics& out_;
     Environment* environment_;
     int found_by_modules_ = 0;  ///< errors
+    struct Unusual {
+        Location where;
+        std::string message, hint;
+        int count = 0;
+    };
+    std::map<std::pair<const SourceFile*, std::string>, Unusual> unusual_;  ///< by file and hint
     /// The first output that leads to a group, by the group's id, of the enabled modules.
     std::map<std::string_view, std::pair<const Process*, const CrossReference*>> writers_;
     GroupIndex groups_;
