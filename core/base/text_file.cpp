@@ -13,6 +13,8 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include "core/base/utf8.h"
+
 namespace forage {
 namespace {
 
@@ -57,6 +59,15 @@ Diagnostic error_in(std::string_view text, std::size_t at, std::string message, 
                     std::move(message), std::move(hint));
 }
 
+bool is_utf8(std::string_view text) {
+    while (!text.empty()) {
+        const auto length = utf8_length(text);
+        if (length == 0) return false;
+        text.remove_prefix(length);
+    }
+    return true;
+}
+
 struct FileHandle {
     explicit FileHandle(int n) : number(n) {}
     FileHandle(const FileHandle&) = delete;
@@ -84,6 +95,10 @@ std::string read_file(const std::string& path, std::size_t most) {
     const FileHandle in(path.empty() ? -1 : open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
     if (in.number < 0) throw FileError(path, {}, {refusal(path, errno)});
     if (std::filesystem::is_directory(path, ignored)) unreadable(path, "this is a directory, not a file");
+    if (!is_utf8(path))
+        throw FileError(path, {},
+                        {error_at(0, 0, "the name of this file is not UTF-8",
+                                  "rename it: results name the files of their run")});
     const bool pipe = std::filesystem::is_fifo(path, ignored);
     std::string text;
     if (const auto size = std::filesystem::file_size(path, ignored); !ignored)

@@ -445,6 +445,14 @@ class Mistakes(Cli):
             self.assertRegex(done.stderr, r"bad\.iqr:\d+:\d+: error: .*'nowhere'")
         self.assertEqual([p.name for p in self.here.iterdir()], ["bad.iqr"])  # nothing left behind
 
+    def test_a_file_name_that_no_result_could_hold_is_refused(self):
+        name = os.fsdecode(b"caf\xe9.iqr")
+        (self.here / name).write_text(SMALL_SYSTEM)
+        for command in (["check", name], ["run", name, "--cycles", "1"], ["describe", name]):
+            done = self.forage(*command, status=2)
+            self.assertIn("caf\\xe9.iqr: error: the name of this file is not UTF-8\n  hint: rename it", done.stderr)
+        self.assertEqual(len(list(self.here.iterdir())), 1)
+
     def test_lenient_turns_unknown_names_into_warnings(self):
         bad = self.here / "bad.iqr"
         bad.write_text(SMALL_SYSTEM.replace('name="excGain"', 'name="exGain"'))
@@ -491,6 +499,10 @@ class Mistakes(Cli):
 
     def test_names_with_blanks_and_ids_work(self):
         self.run_robot("--cycles", 1, "--set", " Bug/Light . threshold = 0.1 ", "--set", "reactive.us.threshold=0.3", "--record", "bug.gps")
+
+    def test_a_parameter_that_is_set_twice_is_named(self):
+        done = self.run_robot("--cycles", 1, "--set", "Bug/Light.threshold=0.1", "--set", "Bug/Light.threshold =0.2")
+        self.assertEqual(done.stderr.count("warning: --set: 'Bug/Light.threshold' is set more than once\n  hint: the last one counts"), 1)
 
     def test_rows_that_nothing_plays_and_wrong_tables(self):
         (self.here / "small.iqr").write_text(SMALL_SYSTEM)

@@ -292,6 +292,20 @@ std::optional<model::System> read_first(const RunInput& input, Diagnostics& diag
                               : xml::parse_system(input.system, input.text, diagnostics);
 }
 
+/// Warns of a parameter that a command sets twice. What an experiment sets has a place in its file, and its
+/// sweeps set it again on purpose.
+template <class Settings>
+void warn_of_repeated(const Settings& settings, Diagnostics& diagnostics) {
+    std::set<std::string_view> names;
+    for (const auto& setting : settings) {
+        if (setting.at.file) continue;
+        const auto name = model::trim(std::string_view(setting.text).substr(0, setting.text.find('=')));
+        if (!names.insert(name).second)
+            diagnostics.warning({}, fmt::format("--set: '{}' is set more than once", name),
+                                "the last one counts");
+    }
+}
+
 }  // namespace
 
 Sources with_first_system(Sources sources, const RunInput& input, Diagnostics& diagnostics) {
@@ -329,6 +343,7 @@ std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Di
         if (p.loaded) out.plugins.push_back(p.path);
     if (sources.system && !sources.plugins_failed) {
         bind_robots(input.robots, out.registry, out.system, diagnostics);
+        warn_of_repeated(input.settings, diagnostics);
         for (const auto& setting : input.settings)
             model::set(out.system, out.registry, setting.text, diagnostics, setting.at);
         check_drivers(out.registry, out.system, out.world != nullptr, diagnostics);

@@ -313,7 +313,7 @@ void HttpServer::Parts::accept() {
 HttpServer::HttpServer(Options options) try : parts_(std::make_unique<Parts>(std::move(options))) {
     parts_->accept();
 } catch (const boost::system::system_error& e) {
-    throw std::runtime_error(fmt::format("cannot listen on 127.0.0.1: {}", e.what()));
+    throw std::runtime_error(fmt::format("cannot listen on 127.0.0.1:{}: {}", options.port, e.what()));
 }
 HttpServer::~HttpServer() = default;
 
