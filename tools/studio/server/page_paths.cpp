@@ -102,16 +102,22 @@ bool are_numbers(std::string_view line, std::string_view separators) {
 bool is_comment(std::string_view line) { return line.starts_with('#') || model::trim(line).empty(); }
 
 bool holds_patterns(std::string_view text) {
+    bool has_numbers = false;
     while (!text.empty())
-        if (const auto line = next_line(text); !is_comment(line) && !are_numbers(line, " \t\r,;"))
-            return false;
-    return true;
+        if (const auto line = next_line(text); !is_comment(line)) {
+            if (!are_numbers(line, " \t\r,;")) return false;
+            has_numbers = true;
+        }
+    return has_numbers;
 }
 
 bool holds_table(std::string_view text) {
+    bool has_rows = false;
     while (!text.empty()) {
         auto line = next_line(text);
-        if (is_comment(line) || line.starts_with("cycle,")) continue;
+        if (is_comment(line)) continue;
+        has_rows = true;
+        if (line.starts_with("cycle,")) continue;
         const auto cycle = line.substr(0, line.find(','));
         for (int names = 0; names < 3; ++names) {  // what is before the values
             const auto comma = line.find(',');
@@ -120,7 +126,7 @@ bool holds_table(std::string_view text) {
         }
         if (!is_number(cycle) || !are_numbers(line, ",\r")) return false;
     }
-    return true;
+    return has_rows;
 }
 
 bool holds_recording(std::string_view text) {
@@ -129,7 +135,7 @@ bool holds_recording(std::string_view text) {
     while (!text.empty())
         if (const auto line = next_line(text); !is_comment(line))
             return line.starts_with("cycle,") || line.starts_with("cycle;") || model::trim(line) == "cycle";
-    return true;
+    return false;
 }
 
 bool holds_layout(std::string_view text) {
@@ -157,7 +163,8 @@ std::optional<std::string> beginning_of(const std::string& path) {
     }
     ::close(file);
     if (!regular) throw InputError(fmt::format("'{}' is not a file", path), "a page reads and writes files");
-    if (out.size() >= max_beginning) out.resize(out.rfind('\n') + 1);  // its last line may be cut
+    if (out.size() >= max_beginning && out.find('\n') != out.npos)
+        out.resize(out.rfind('\n') + 1);  // its last line may be cut
     return out;
 }
 

@@ -173,6 +173,8 @@ TEST_CASE("files of the right kind are read, also damaged ones and through links
     CHECK_FALSE(is_of_kind("<worlds>", FileKind::world));
     CHECK_FALSE(is_of_kind("x <System>", FileKind::system));
     CHECK(is_of_kind("# any\n1, 2\n3;4\t5\r\n\n", FileKind::patterns));
+    for (const auto kind : {FileKind::patterns, FileKind::table, FileKind::recording})
+        CHECK_FALSE(is_of_kind("# nothing but a remark\n", kind));
     CHECK(is_of_kind("cycle,a\n0,1\n", FileKind::recording));
     CHECK(is_of_kind("# \"A\"=g1\ncycle;g1_act_0;\n", FileKind::recording));
     CHECK(is_of_kind("\x93NUMPY\x01", FileKind::recording));
