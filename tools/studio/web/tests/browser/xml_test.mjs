@@ -166,7 +166,10 @@ export default async function({ folder, context, start, open, faults, step }) {
   const done = await page.evaluate(() =>
     new Promise((answer) => {
       const socket = new WebSocket(`ws://${location.host}/ws`);
-      socket.onopen = () => socket.send(JSON.stringify({ id: 1, command: 'manipulate', group: 'Bug/Motor', patterns: [Array(81).fill(0)] }));
+      socket.onopen = () => {
+        socket.send(JSON.stringify({ token: sessionStorage.getItem('forage-token') }));
+        socket.send(JSON.stringify({ id: 1, command: 'manipulate', group: 'Bug/Motor', patterns: [Array(81).fill(0)] }));
+      };
       socket.onmessage = ({ data }) => {
         const message = typeof data === 'string' ? JSON.parse(data) : {};
         if (message.type === 'reply') answer(message.ok), socket.close();
