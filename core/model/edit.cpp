@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/printable.h"
 #include "core/base/separated.h"
 #include "core/model/build.h"
 #include "core/model/expression.h"
@@ -14,6 +15,12 @@
 
 namespace forage::model {
 namespace {
+
+/// Whether a text has a control character that XML cannot hold.
+bool is_unwritable(std::string_view text) {
+    return std::ranges::any_of(
+        text, [](unsigned char c) { return c < ' ' && c != '\t' && c != '\n' && c != '\r'; });
+}
 
 /// An item of a system that has parameters, found by the name before the dot.
 struct Owner {
@@ -173,12 +180,17 @@ std::optional<Assignment> parse_assignment(const System& system, const Registry&
                       out->parameter ? out->parameter->doc : "");
         return std::nullopt;
     }
+    const bool is_path = out->parameter && out->parameter->is_path;
+    if (kind == ParameterKind::text && (is_path ? has_control(value.text) : is_unwritable(value.text))) {
+        context.error(value.at, fmt::format("'{}' has a control character", value.text), "remove it");
+        return std::nullopt;
+    }
     out->value = *parsed;
     if (!out->parameter) return out;
     if (const auto& range = out->parameter->range; outside(*parsed, range))
         diagnostics.warning(at, fmt::format("{} '{}': outside the usual range {} to {}", what, text,
                                             to_text(range->low), to_text(range->high)));
-    if (out->parameter->is_path) out->value = resolved(value.text, at);
+    if (is_path) out->value = resolved(value.text, at);
     return out;
 }
 
