@@ -150,6 +150,16 @@ class Video(Devices):
         self.resumed("small.iqr", "--cycles", 120)
 
     @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_a_text_is_no_film(self):
+        """ffmpeg itself draws texts, and follows lists of films."""
+        for name, text in {"key.asc": "secret\n" * 1000, "list.m3u8": "#EXTM3U\n#EXTINF:1,\nfilm.ts\n"}.items():
+            (self.here / name).write_text(text)
+            self.small(size=(64, 48), file=name)
+            done = subprocess.run([FORAGE, "run", "small.iqr", "--cycles", "3", "-o", "out"], cwd=self.here, capture_output=True, text=True, timeout=600)
+            self.assertNotEqual(done.returncode, 0)
+            self.assertRegex(done.stderr, f"ffmpeg cannot read '.*{name}'")
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
     def test_a_film_with_gaps_has_each_picture_once(self):
         subprocess.run(
             [
