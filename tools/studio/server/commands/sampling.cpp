@@ -30,8 +30,6 @@ std::string next_of_sequence(const fs::path& file) {
 /// Opens partial(file) with the rows that `file` has, to append rows of the same sources. Throws InputError.
 std::unique_ptr<observe::RowFile> continued(observe::RecordingFormat format, const std::string& file,
                                             const observe::RowFileHeader& header) {
-    if (format != observe::RecordingFormat::csv && format != observe::RecordingFormat::sampler)
-        throw InputError("rows can be appended to a .csv or a .dat file", "record a sequence of files");
     observe::open_row_file(format, partial(file), header)->close();
     const std::string head = read_file(partial(file)), old = read_file(file);
     if (!old.starts_with(head) || !old.ends_with('\n')) {
@@ -60,6 +58,10 @@ std::pair<std::string, RecordingFile> planned(const Session& s, const SamplerReq
     throw_errors(diagnostics);
     if (files.size() != 1 || !files.front().archive.empty())
         throw InputError("a sampler writes one file", "its name ends with .csv, .npy, .h5 or .dat");
+    if (const auto format = files.front().format; how.mode == "append" &&
+                                                  format != observe::RecordingFormat::csv &&
+                                                  format != observe::RecordingFormat::sampler)
+        throw InputError("rows can be appended to a .csv or a .dat file", "record a sequence of files");
     return {file, std::move(files.front())};
 }
 

@@ -244,6 +244,7 @@ TEST_CASE("a refused command leaves no trace") {
     for (const auto& how : {json{{"sources", {"Nothing"}}, {"file", f.path("b.csv")}},
                             json{{"sources", json::array()}, {"file", f.path("b.csv")}},
                             json{{"sources", {"P/A"}}, {"file", f.path("none/b.csv")}},
+                            json{{"sources", {"P/A"}}, {"file", f.path("b.h5")}, {"mode", "append"}},
                             json{{"sources", {"P/A"}}, {"file", f.path("b.pdf")}}}) {
         json command = how;
         command["command"] = "sample", command["automatic"] = true;
