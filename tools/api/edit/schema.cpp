@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "core/base/diagnostic.h"
+#include "core/base/printable.h"
 #include "core/run/input_error.h"
 
 namespace forage::schema {
@@ -28,10 +29,6 @@ bool in_range(const json& value, const ValueType& type) {
     return std::isfinite(number) && number >= type.low && number <= type.high;
 }
 
-bool has_control_characters(const std::string& text) {
-    return std::ranges::any_of(text, [](unsigned char c) { return c < ' ' || c == 0x7f; });
-}
-
 /// Whether a value has the kind of a type, apart from what is in it.
 bool fits(const json& value, const ValueType& type) {
     switch (type.kind) {
@@ -47,7 +44,7 @@ bool fits(const json& value, const ValueType& type) {
         case Kind::text:
             return value.is_string();
         case Kind::path:
-            return value.is_string() && !has_control_characters(value.get<std::string>());
+            return value.is_string() && !has_control(value.get<std::string>());
         case Kind::choice:
             return value.is_string() && std::ranges::count(type.choices, value.get<std::string>()) > 0;
         case Kind::list:

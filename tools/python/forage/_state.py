@@ -4,4 +4,4 @@ from . import _forage
 
 def resumed(state):
     """The run that was pickled."""
-    return _forage._resumed(state)  # whoever reads a pickle trusts it
+    return _forage._resumed(state)  # a pickle can run code anyway, so its plugins are trusted

@@ -87,7 +87,7 @@ void Session::open(RunInput input) {
     std::string files;
     auto [run, touches] = make_run(input, &files);
     RunInput begun = input;
-    // The text as it is now: the file may change while the run goes.
+    // The text is kept, because the file may change during the run.
     if (begun.text.empty() && !begun.system.ends_with(".iqrProcess")) begun.text = read_file(begun.system);
     close_sampler();
     end_reference();
