@@ -429,8 +429,10 @@ def test_mistakes_with_worlds_side_by_side():
         env.step([1, 2, 9])
     with pytest.raises(forage.InputError, match="not a function"):
         BugVectorEnv(2, WORLD, reward=len)
-    with pytest.raises(forage.InputError, match="1 run"):
+    with pytest.raises(forage.InputError, match="0 environments"):
         BugVectorEnv(0, WORLD)
+    with pytest.raises(forage.InputError, match="1000000000 environments"):
+        BugVectorEnv(10**9, WORLD)
 
 
 def test_an_environment_is_not_used_by_two_threads_at_once():

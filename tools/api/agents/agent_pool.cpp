@@ -10,10 +10,17 @@
 #include "core/run/argument_checks.h"
 
 namespace forage {
+namespace {
+
+constexpr std::size_t max_runs = 10'000;  ///< each takes megabytes
+
+}  // namespace
 
 AgentPool::AgentPool(const std::shared_ptr<const AgentTask>& task, std::size_t runs, int threads) {
     Diagnostics diagnostics;
-    if (runs == 0) diagnostics.error({}, "there is no run", "1 run is the least");
+    if (runs == 0 || runs > max_runs)
+        diagnostics.error({}, fmt::format("{} environments cannot be stepped together", runs),
+                          fmt::format("a whole number from 1 to {}", max_runs));
     if (threads != 0) check_threads(threads, diagnostics);
     throw_errors(std::move(diagnostics));
     for (std::size_t i = 0; i < runs; ++i) runs_.emplace_back(task, task->options().input.seed + i);
