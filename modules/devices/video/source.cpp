@@ -108,14 +108,15 @@ class Decoded final : public Source {
 std::unique_ptr<Source> open_folder(const std::string& folder) { return std::make_unique<Folder>(folder); }
 
 std::unique_ptr<Source> open_film(const std::string& file) {
-    // A film may name others, which ffmpeg would fetch from anywhere. Formats that are not listed draw texts,
-    // or are lists of files.
+    // Other formats draw texts, or are lists of files.
+    const std::string formats =
+        "mp4,matroska,avi,mpeg,mpegts,mpegvideo,ogg,flv,asf,nut,gif,apng,yuv4mpegpipe,mjpeg,h264,hevc,m4v,"
+        "ivf,"
+        "png_pipe,jpeg_pipe,bmp_pipe,ppm_pipe,tiff_pipe,webp_pipe,image2";
+    // A film may name others, which ffmpeg would fetch from anywhere.
     return std::make_unique<Decoded>(
-        file, std::vector<std::string>{
-                  "-protocol_whitelist", "file,pipe", "-format_whitelist",
-                  "mp4,matroska,avi,mpeg,mpegts,mpegvideo,ogg,flv,asf,nut,gif,apng,yuv4mpegpipe,mjpeg,h264,"
-                  "hevc,m4v,ivf,png_pipe,jpeg_pipe,bmp_pipe,ppm_pipe,tiff_pipe,webp_pipe,image2",
-                  "-i", "file:" + fs::absolute(file).string()});
+        file, std::vector<std::string>{"-protocol_whitelist", "file,pipe", "-format_whitelist", formats, "-i",
+                                       "file:" + fs::absolute(file).string()});
 }
 
 void check_camera(const CameraSettings& s) {
