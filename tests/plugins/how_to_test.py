@@ -3,8 +3,7 @@
     how_to_test.py BUILD_DIRECTORY HOW_TO_DIRECTORY [TEST...]
 
 Files are the code blocks whose lead says `NAME`; commands are the blocks of `sh`; the block of `text` behind
-one is what its last command prints. With FORAGE_WHOLE in the environment all pages are followed, projects of all kinds are built, and
-the packages are made as for a release, twice; otherwise two pages are followed, one of which builds a project.
+one is what its last command prints.
 """
 
 import concurrent.futures
@@ -19,7 +18,6 @@ import unittest
 
 BUILD = pathlib.Path(sys.argv[1]).resolve()
 PAGES = pathlib.Path(sys.argv[2]).resolve()
-WHOLE = bool(os.environ.get("FORAGE_WHOLE"))
 BLOCK = re.compile(r"(?:^(?P<lead>(?!```)[^\n]*)\n\n)?^```(?P<language>\w+)\n(?P<text>.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
@@ -46,9 +44,7 @@ class HowTo(unittest.TestCase):
     def pack(cls, name):
         """The packages by name, made in a new folder."""
         environment = {**os.environ, "SOURCE_DATE_EPOCH": "1790000000"}
-        # Looking for libraries in all files takes half a minute.
-        fast = [] if WHOLE else ["-D", "CPACK_DEBIAN_COMPRESSION_TYPE=gzip", "-D", "CPACK_DEBIAN_PACKAGE_SHLIBDEPS=OFF"]
-        run(["cpack", "--config", BUILD / "CPackConfig.cmake", "-B", cls.folder / name, *fast], cls.folder, environment)
+        run(["cpack", "--config", BUILD / "CPackConfig.cmake", "-B", cls.folder / name], cls.folder, environment)
         return {file.name.split("_")[0]: file for file in (cls.folder / name).glob("*.deb")}
 
     def follow(self, page):
@@ -98,7 +94,7 @@ class HowTo(unittest.TestCase):
             self.assertEqual(len(re.findall(r"^```\w+$", text, re.MULTILINE)), len(list(BLOCK.finditer(text))), page)
             self.assertGreaterEqual(self.follow(page), commands[page])
 
-        self.each(follow, commands if WHOLE else ("write-a-neuron", "embed"))
+        self.each(follow, commands)
         self.fails_with_other_numbers(self.folder / "write-a-neuron/leaky")
 
     def test_a_member_of_an_unsupported_type_gives_one_error(self):
@@ -139,7 +135,6 @@ FORAGE_PLUGIN(Wrong);
         printed = run(["/usr/bin/python3", "-c", code], self.folder / "root/usr/share/forage", environment)
         self.assertEqual(printed.split(), ["5", str(self.folder / "root/usr/lib/python3/dist-packages/forage/__init__.py")])
 
-    @unittest.skipUnless(WHOLE, "FORAGE_WHOLE is not set")
     def test_projects_of_all_kinds_build_and_pass_their_test(self):
         def build(kind):
             run(f"forage new {kind} my-{kind}_2", self.folder, self.environment)
@@ -155,8 +150,7 @@ FORAGE_PLUGIN(Wrong);
         here.mkdir()
         environment = {"PATH": f"{BUILD}/bin:/usr/local/bin:/usr/bin:/bin", "HOME": str(here), "LANG": "C.UTF-8"}
         run("forage new neuron leaky && forage build-plugin leaky/leaky.cpp", here, environment)
-        if WHOLE:
-            run("cd leaky && cmake -B build && cmake --build build && ctest --test-dir build", here, environment)
+        run("cd leaky && cmake -B build && cmake --build build && ctest --test-dir build", here, environment)
 
     def test_shipped_files_are_found_from_the_package(self):
         systems = self.folder / "root/usr/share/forage/systems"
@@ -166,7 +160,7 @@ FORAGE_PLUGIN(Wrong);
     def test_the_packages_depend_on_what_they_need_and_hold_no_path_of_the_build(self):
         self.assertEqual(sorted(set(self.packages) - {"forage-mpi", "python3-forage"}), ["forage", "forage-dev", "forage-doc"])
         depends = {name: run(["dpkg-deb", "-f", file, "Depends"], self.folder) for name, file in self.packages.items()}
-        for library in ("libtinyxml2", "libopencv-core", "libbullet") if WHOLE else ():
+        for library in ("libtinyxml2", "libopencv-core", "libbullet"):
             self.assertIn(library, depends["forage"])
         self.assertRegex(depends["forage-dev"], r"forage \(= .*libeigen3-dev")
         self.assertNotIn("mpi", depends["forage"])
@@ -178,7 +172,6 @@ FORAGE_PLUGIN(Wrong);
             self.assertNotIn(str(BUILD).encode(), file.read_bytes(), file.name)
         self.assertIn("/usr/share/doc/forage/docs/tutorial/README.md", run(["dpkg-deb", "-c", self.packages["forage-doc"]], self.folder))
 
-    @unittest.skipUnless(WHOLE, "FORAGE_WHOLE is not set")
     def test_packages_made_again_are_the_same_byte_for_byte(self):
         for name, file in self.pack("again").items():
             self.assertEqual(file.read_bytes(), self.packages[name].read_bytes(), name)
