@@ -21,6 +21,7 @@ TESTS = {
     "core/types": "unit_types",
     "core/model": "unit_model",
     "core/connectivity": "unit_connectivity",
+    "core/formula": "unit_formula",
     "core/xml": "unit_xml",
     "core/engine": "unit_engine",
     "core/plugin": "plugins",

@@ -13,10 +13,11 @@ import tempfile
 ALLOWED = {
     'core/base': set(),
     'core/types': {'core/base'},
-    'core/model': {'core/base', 'core/types'},
+    'core/formula': {'core/base'},
+    'core/model': {'core/base', 'core/formula', 'core/types'},
     'core/connectivity': {'core/base', 'core/model'},
     'core/engine': {'core/base', 'core/connectivity', 'core/model', 'core/types'},
-    'core/xml': {'core/base', 'core/model', 'core/types'},
+    'core/xml': {'core/base', 'core/formula', 'core/model', 'core/types'},
     'core/observe': {'core/base', 'core/engine', 'core/model'},
     'core/run': {'core/base', 'core/types', 'core/model', 'core/connectivity', 'core/engine', 'core/observe'},
     'core/plugin': {'core/base', 'core/types'},

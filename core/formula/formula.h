@@ -1,0 +1,93 @@
+// Arithmetic in files: a text as a tree, and its value.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace forage {
+
+/// What is wrong with a formula. what() is the reason.
+struct FormulaError : std::invalid_argument {
+    FormulaError(std::size_t offset, const std::string& message, std::string advice = {})
+        : std::invalid_argument(message), at(offset), hint(std::move(advice)) {}
+    std::size_t at;    ///< the first wrong byte of the text, from 0
+    std::string hint;  ///< may be empty
+};
+
+/// An expression of numbers, names, operators and functions.
+class Formula {
+  public:
+    enum class Op : std::uint8_t {
+        number,
+        name,
+        add,
+        subtract,
+        multiply,
+        divide,
+        power,
+        negative,
+        less,
+        at_most,
+        more,
+        at_least,
+        equal,
+        unequal,
+        both,
+        either,
+        inverse,
+        minimum,
+        maximum,
+        absolute,
+        exponential,
+        logarithm,
+        root,
+        sine,
+        cosine,
+        hyperbolic_tangent,
+        clip,
+        floor,
+        round,
+        choice,
+    };
+    struct Node {
+        Op op;
+        std::uint32_t at;  ///< its first byte in the text
+        std::uint32_t
+            parts[3];  ///< the nodes that it combines, all before it; of a name: its place in `names`
+        double value;  ///< of a number
+    };
+
+    /// Reads a text of at most 4096 bytes. Throws FormulaError.
+    explicit Formula(std::string_view text);
+
+    /// The value of a name; throws FormulaError for a name that it does not know. `at` is its place.
+    using Names = std::function<double(const std::string& name, std::size_t at)>;
+    /// The value of the formula. Comparisons, `and`, `or` and `not` are 1 or 0; of `if(a, b, c)` only the
+    /// part that counts is computed. Throws what `names` throws.
+    double value(const Names& names) const;
+
+    const std::vector<Node>& nodes() const { return nodes_; }  ///< the last one is the whole formula
+    const std::vector<std::string>& names() const { return names_; }
+
+  private:
+    double value(std::uint32_t node, const Names& names) const;
+
+    std::vector<Node> nodes_;
+    std::vector<std::string> names_;  ///< each once, in the order of their first use
+};
+
+/// Whether a text is a formula in braces: "{1 + lambda}".
+inline bool in_braces(std::string_view text) {
+    return text.size() >= 2 && text.front() == '{' && text.back() == '}';
+}
+
+/// Whether names in formulas may be called so: letters, digits and underscores, not first a digit, and none
+/// of the words of the grammar.
+bool is_formula_name(std::string_view name);
+
+}  // namespace forage
