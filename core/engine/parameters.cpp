@@ -8,6 +8,8 @@
 
 #include "core/base/named_file.h"
 #include "core/engine/run_error.h"
+#include "core/model/changes.h"
+#include "core/model/constants.h"
 
 namespace forage::engine {
 namespace {
@@ -27,6 +29,7 @@ int number_of(const Layout& layout, const Assignment& a) {
         case Assignment::Owner::connection:
             return number(layout.connections, &Layout::Connection::id);
         case Assignment::Owner::process:
+        case Assignment::Owner::constant:
             break;
     }
     return number(layout.modules, &Layout::Module::process_id);
@@ -65,6 +68,53 @@ class Copies {
 };
 
 }  // namespace
+
+LiveConstants::LiveConstants(const model::System& system, const Layout& layout) : system_(system) {
+    const auto types = std::make_shared<Registry>();
+    const auto add = [&](const auto& type, const auto& known) {
+        if (!known.contains(type.name)) types->add(type);
+    };
+    for (const auto& g : layout.groups) add(g.type, types->neurons());
+    for (const auto& m : layout.modules) add(m.type, types->modules());
+    for (const auto& c : layout.connections) add(c.type, types->synapses());
+    types_ = types;
+}
+
+std::optional<std::vector<Assignment>> LiveConstants::changes(const Layout& layout,
+                                                              const Assignment& change) const {
+    auto out = model::parameter_changes(system_, model::with(system_, change), *types_);
+    if (out) std::erase_if(*out, [&](const Assignment& a) { return number_of(layout, a) < 0; });  // disabled
+    return out;
+}
+
+void LiveConstants::checkpoint(Archive& archive) {
+    for (auto& c : system_.constants) archive(c.value);
+    for (auto& p : system_.processes)
+        for (auto& c : p.constants) archive(c.value);
+    Diagnostics found_when_read;
+    if (archive.loading()) model::compute(system_, found_when_read);
+}
+
+std::vector<Assignment> expanded(LiveConstants constants, const Layout& layout,
+                                 std::span<const Assignment> changes, Diagnostics& diagnostics) {
+    std::vector<Assignment> out;
+    for (const auto& change : changes) {
+        if (!is_constant(change)) {
+            out.push_back(change);
+            continue;
+        }
+        const auto found = constants.changes(layout, change);
+        if (!found) {
+            diagnostics.error(change.at,
+                              fmt::format("'{}': more than parameters depends on this constant", change.text),
+                              "set it before the run");
+            continue;
+        }
+        for (auto a : *found) a.at = change.at, out.push_back(std::move(a));
+        constants.set(change);
+    }
+    return out;
+}
 
 void check_changes(const Plan& plan, const State& state, std::span<const Assignment> changes,
                    Diagnostics& diagnostics) {
@@ -135,6 +185,7 @@ ParameterValue parameter(const Plan& plan, const State& state, const Assignment&
         case Assignment::Owner::connection:
             return a.parameter->get(state.connections[i].synapse->parameters());
         case Assignment::Owner::process:
+        case Assignment::Owner::constant:
             break;
     }
     return a.parameter->get(state.modules[i].module->parameters());

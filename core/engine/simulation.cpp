@@ -11,6 +11,7 @@
 #include "core/engine/executor.h"
 #include "core/engine/parameters.h"
 #include "core/engine/plan/compile.h"
+#include "core/model/constants.h"
 
 namespace forage::engine {
 
@@ -29,6 +30,7 @@ struct Simulation::Parts {
     bool running = false;                ///< a cycle: between update_groups() and update_connections()
     std::uint64_t shared_cycles = 0;
     std::optional<NotFinite> not_finite;
+    std::optional<LiveConstants> constants;  ///< empty when the system has none
 };
 
 namespace {
@@ -74,7 +76,9 @@ std::optional<Simulation> Simulation::build(const model::System& system, Layout 
                                             const Options& options, Diagnostics& diagnostics) {
     auto compiled = compile(system, std::move(layout), demand, options, diagnostics);
     if (!compiled.plan) return std::nullopt;
-    return Simulation(std::make_unique<Parts>(std::move(compiled), options));
+    auto parts = std::make_unique<Parts>(std::move(compiled), options);
+    if (!model::constant_names(system).empty()) parts->constants.emplace(system, parts->plan->layout);
+    return Simulation(std::move(parts));
 }
 
 Simulation::Simulation(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -94,7 +98,7 @@ void Simulation::step() {
 }
 
 void Simulation::update_groups() {
-    auto& [plan, state, cycle, executor, shared, running, shared_cycles, not_finite] = *parts_;
+    auto& [plan, state, cycle, executor, shared, running, shared_cycles, not_finite, constants] = *parts_;
     if (!state->started) throw RunError("the simulation is not started");
     state->shown = state->cycle;
     running = true;
@@ -131,21 +135,34 @@ void Simulation::check_finite(bool wanted) { parts_->cycle.check_finite = wanted
 const std::optional<NotFinite>& Simulation::not_finite() const { return parts_->not_finite; }
 
 void Simulation::check(std::span<const model::Assignment> changes, Diagnostics& diagnostics) const {
-    check_changes(*parts_->plan, *parts_->state, changes, diagnostics);
+    const auto& constants = parts_->constants;
+    check_changes(*parts_->plan, *parts_->state,
+                  constants ? expanded(*constants, layout(), changes, diagnostics)
+                            : std::vector(changes.begin(), changes.end()),
+                  diagnostics);
 }
 
 void Simulation::set(const model::Assignment& change) {
     if (parts_->running && !parts_->plan->overwritten)
         throw std::logic_error(
             "parameters change between cycles, not between update_groups() and update_connections()");
-    set_parameter(*parts_->plan, *parts_->state, parts_->cycle, change);
+    if (!is_constant(change)) return set_parameter(*parts_->plan, *parts_->state, parts_->cycle, change);
+    const auto changes = parts_->constants->changes(layout(), change);
+    if (!changes)
+        throw RunError(fmt::format("'{}': more than parameters depends on this constant", change.text));
+    for (const auto& a : *changes) set_parameter(*parts_->plan, *parts_->state, parts_->cycle, a);
+    parts_->constants->set(change);
 }
 
 ParameterValue Simulation::parameter(const model::Assignment& which) const {
+    if (is_constant(which)) return parts_->constants->value(which);
     return engine::parameter(*parts_->plan, *parts_->state, which);
 }
 
-void Simulation::checkpoint(Archive& archive) { parts_->state->checkpoint(*parts_->plan, archive); }
+void Simulation::checkpoint(Archive& archive) {
+    parts_->state->checkpoint(*parts_->plan, archive);
+    if (parts_->constants) parts_->constants->checkpoint(archive);
+}
 
 void Simulation::adopt(const Simulation& old, const Unchanged& unchanged) {
     engine::adopt(*parts_->plan, *parts_->state, *old.parts_->plan, *old.parts_->state, unchanged);

@@ -51,10 +51,10 @@ std::optional<std::vector<Assignment>> parameter_changes(const System& before, c
         if (!parameters) return;
         for (const Parameter& p : *parameters) {
             const Setting *had = find(was, p.name), *has = find(is, p.name);
-            if (had ? has && had->value == has->value : !has) continue;
+            if (had ? has && had->in_force(p.kind) == has->in_force(p.kind) : !has) continue;
             ParameterValue value = p.default_value;
             if (has) {
-                const auto parsed = parse_parameter(p.kind, has->value);
+                const auto parsed = parse_parameter(p.kind, has->in_force(p.kind));
                 if (!parsed) continue;
                 value = p.is_path ? ParameterValue(resolved(has->value, has->value_at)) : *parsed;
             }

@@ -10,6 +10,7 @@
 #include "core/base/printable.h"
 #include "core/base/separated.h"
 #include "core/model/build.h"
+#include "core/model/constants.h"
 #include "core/model/expression.h"
 #include "core/model/lookup.h"
 
@@ -80,6 +81,24 @@ std::optional<Owner> find_owner(const System& system, const Registry& registry,
     return std::nullopt;
 }
 
+/// The assignment to a constant that a text before '=' names; its value is still unset. Empty when there is
+/// none.
+std::optional<Assignment> resolve_constant(const System& system, std::string_view name,
+                                           const expression::Context& context) {
+    name = trim(name);
+    if (!find_constant(system, name)) return std::nullopt;
+    return Assignment{Assignment::Owner::constant, std::string(name), nullptr, {},
+                      std::string(context.text),   context.at};
+}
+
+/// Gives a constant the value of its assignment, and all that depends on it. Reports what is wrong then.
+void set_constant(System& system, const Assignment& a, Diagnostics& diagnostics) {
+    Constant& constant = *find_constant(system, a.id);
+    constant.value = trim(std::string_view(a.text).substr(a.text.find('=') + 1));
+    constant.value_at = a.at;
+    compute(system, diagnostics);
+}
+
 /// Resolves the owner and the parameter of an assignment; the value is still unset.
 std::optional<Assignment> resolve(const System& system, const Registry& registry,
                                   const expression::Assignment& said, const expression::Context& context) {
@@ -143,6 +162,7 @@ const std::vector<Parameter>* parameters_of(const Registry& registry, Assignment
 std::optional<Assignment> find_parameter(const System& system, const Registry& registry,
                                          std::string_view name, std::string_view what,
                                          Diagnostics& diagnostics) {
+    if (auto constant = resolve_constant(system, name, {name, what, diagnostics})) return constant;
     const std::string text = fmt::format("{}=", name);
     if (const auto said = expression::Context{text, what, diagnostics}.parsed(&expression::parse_assignment))
         return resolve(system, registry, *said, {name, what, diagnostics});
@@ -161,6 +181,7 @@ std::vector<std::string> parameter_names(const System& system, const Registry& r
     }
     for (const auto& c : system.connections)
         if (c.synapse) add(unique_name(system, c), registry.synapse(c.synapse->type));
+    for (auto& name : constant_names(system)) out.push_back(std::move(name));
     return out;
 }
 
@@ -168,6 +189,25 @@ std::optional<Assignment> parse_assignment(const System& system, const Registry&
                                            std::string_view text, std::string_view what,
                                            Diagnostics& diagnostics, Location at) {
     const expression::Context context{text, what, diagnostics, at};
+    if (auto constant = resolve_constant(system, text.substr(0, text.find('=')), context);
+        constant && text.find('=') != text.npos) {
+        System changed = system;
+        Diagnostics found;
+        set_constant(changed, *constant, found);
+        for (Diagnostic d : found.all()) {
+            if (!d.where.file) d.message = fmt::format("{} '{}': {}", what, text, d.message);
+            diagnostics.add(std::move(d));
+        }
+        if (found.failed()) return std::nullopt;
+        constant->value = value_of(changed, *constant);
+        return constant;
+    }
+    if (const auto name = trim(text.substr(0, text.find('=')));
+        is_formula_name(name) && name.size() < text.size())
+        if (const auto constants = constant_names(system); !constants.empty()) {
+            context.error(0, fmt::format("there is no constant '{}'", name), suggest(name, constants));
+            return std::nullopt;
+        }
     const auto said = context.parsed(&expression::parse_assignment);
     if (!said) return std::nullopt;
     auto out = resolve(system, registry, *said, context);
@@ -203,10 +243,12 @@ std::optional<Assignment> find_item(const System& system, std::string_view where
 }
 
 ParameterValue value_of(const System& system, const Assignment& a) {
+    if (a.owner == Assignment::Owner::constant) return Constants(system).value_of(a.id).value_or(0);
     if (!a.parameter) return with_id(system.processes, a.id).module_enabled;
     for (const auto& s : use_of(system, a).settings)
         if (s.name == a.parameter->name)
-            if (auto value = parse_parameter(a.parameter->kind, s.value)) return *std::move(value);
+            if (auto value = parse_parameter(a.parameter->kind, s.in_force(a.parameter->kind)))
+                return *std::move(value);
     return a.parameter->default_value;
 }
 
@@ -237,6 +279,10 @@ void move_files(System& system, const std::string& from, const std::string& to, 
 }
 
 void set(System& system, const Assignment& a) {
+    if (a.owner == Assignment::Owner::constant) {
+        Diagnostics found_when_read;
+        return set_constant(system, a, found_when_read);
+    }
     if (a.owner == Assignment::Owner::process && !a.parameter) {
         find_process(system, a.id)->module_enabled = std::get<bool>(a.value);
         return;

@@ -11,16 +11,17 @@
 
 namespace forage::model {
 
-/// A parameter of a group, process or connection, and a valid value for it.
+/// A parameter of a group, process or connection, or a constant, and a valid value for it.
 struct Assignment {
-    enum class Owner { group, process, connection };
+    enum class Owner { group, process, connection, constant };
 
-    Owner owner = Owner::group;            ///< the kind of the item that has the neuron, module or synapse
-    std::string id;                        ///< the id of the group, process or connection
-    const Parameter* parameter = nullptr;  ///< one of the owner's type; null for a process's enableModule
-    ParameterValue value;                  ///< a relative path starts at the working directory
-    std::string text;                      ///< "WHERE.parameter=value", as written
-    Location at;                           ///< the location of the text; without a file: the command line
+    Owner owner = Owner::group;  ///< the kind of the item that has the neuron, module or synapse
+    std::string id;  ///< the id of the group, process or connection; the name of a constant (find_constant())
+    const Parameter* parameter =
+        nullptr;           ///< one of the owner's type; null for a constant and for a process's enableModule
+    ParameterValue value;  ///< a relative path starts at the working directory
+    std::string text;      ///< "WHERE.parameter=value", as written
+    Location at;           ///< the location of the text; without a file: the command line
 };
 
 /// The parameters of a neuron, module or synapse type, by the kind of the items that use it; null when the
@@ -28,7 +29,8 @@ struct Assignment {
 const std::vector<Parameter>* parameters_of(const Registry& registry, Assignment::Owner owner,
                                             std::string_view type);
 
-/// Reads "WHERE.parameter=value". WHERE is a group ("Process/Group": a parameter of its neuron), a process
+/// Reads "WHERE.parameter=value", or "CONSTANT=value", where the value may be a formula in braces. WHERE is a
+/// group ("Process/Group": a parameter of its neuron), a process
 /// ("Process": a parameter of its module, or enableModule) or a connection (its name or id: a parameter of
 /// its synapse). Reports unknown names, with those that exist, and wrong values, which are checked like those
 /// of a file. `what` says where the text is from, such as "--set". Empty when there was an error. The result

@@ -83,6 +83,7 @@ inline constexpr auto members_of<Process> = std::tuple{
     Member{&Process::comments, "the comments", Effect::none},
     Member{&Process::canvas_comments, "the comments on the page", Effect::none},
     Member{&Process::phantoms, "the phantoms", Effect::none},
+    Member{&Process::constants, "the constants", Effect::parameters},
     Member{&Process::groups, "the groups", Effect::rebuild},
     Member{&Process::placeholder, "the link", Effect::none},
     Member{&Process::at, "the location", Effect::none},
@@ -126,6 +127,8 @@ inline constexpr auto members_of<System> = std::tuple{
     Member{&System::connections, "the connections", Effect::rebuild},
     Member{&System::comments, "the comments", Effect::none},
     Member{&System::canvas_comments, "the comments on the page", Effect::none},
+    Member{&System::constants, "the constants", Effect::parameters},
+    Member{&System::formulas, "the formulas", Effect::none},
     Member{&System::at, "the location", Effect::none},
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/model/build.h"
+#include "core/model/constants.h"
 #include "core/model/lookup.h"
 #include "core/model/members.h"
 
@@ -180,6 +181,8 @@ Merge merge(const System& base, const System& mine, const System& theirs) {
         return !groups.find(c.source).group || !groups.find(c.target).group;
     });
     forget_phantoms(s);
+    Diagnostics found_when_read;
+    compute(s, found_when_read);
     return out;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/base/diagnostic.h"
+#include "core/model/number_formula.h"
 
 namespace forage::model {
 
@@ -24,6 +25,7 @@ struct All {
 struct Region {
     int x = 1, y = 1, width = 1, height = 1;
     Location at;
+    Formulas<Region> formulas = {};
     friend bool operator==(const Region&, const Region&) = default;
 };
 

@@ -9,15 +9,33 @@
 
 #include "core/base/column.h"
 #include "core/base/diagnostic.h"
+#include "core/formula/formula.h"
 #include "core/model/arborization.h"
+#include "core/model/number_formula.h"
 #include "core/model/pattern.h"
+#include "core/types/parameter.h"
 
 namespace forage::model {
+
+/// A number with a name. Formulas in braces use it: `<Parameter name="gain" value="{2 * lambda}"/>`.
+struct Constant {
+    std::string name;
+    std::string value;  ///< a number, or a formula in braces
+    std::string unit, doc;
+    std::optional<double> minimum, maximum;  ///< values outside are errors
+    Location at, name_at, value_at;
+    friend bool operator==(const Constant&, const Constant&) = default;
+};
 
 /// A parameter as written in the file. The type decides what the value means.
 struct Setting {
     std::string name, value;
     Location name_at, value_at;
+    std::string computed = {};  ///< the value of a formula in braces (compute()); empty for other values
+    /// The text that the type reads as a parameter of this kind.
+    const std::string& in_force(ParameterKind kind) const {
+        return kind != ParameterKind::text && in_braces(value) && !computed.empty() ? computed : value;
+    }
     friend bool operator==(const Setting&, const Setting&) = default;
 };
 
@@ -76,6 +94,7 @@ struct RectTopology {
     int width = 1, height = 1;
     bool wrap_x = false;  ///< `cylinderVert`: the left edge meets the right one
     bool wrap_y = false;  ///< `cylinderHor`: the upper edge meets the lower one
+    Formulas<RectTopology> formulas = {};
     friend bool operator==(const RectTopology&, const RectTopology&) = default;
 };
 
@@ -115,6 +134,7 @@ struct Process {
     std::vector<std::string> comments;
     std::vector<CanvasComment> canvas_comments;  ///< on the page of its groups
     std::vector<Phantom> phantoms;               ///< those that the file places
+    std::vector<Constant> constants;             ///< of the process; they hide those of the system
     std::vector<Group> groups;
     /// The process as the system's own file has it: one element for a process that is linked to the file
     /// `path` (relative to the system's file), none for other processes. It is what the writer writes; the
@@ -163,6 +183,8 @@ struct System {
     std::vector<Connection> connections;
     std::vector<std::string> comments;
     std::vector<CanvasComment> canvas_comments;  ///< on the page of the processes
+    std::vector<Constant> constants;
+    Formulas<System> formulas;
     Location at;
     friend bool operator==(const System&, const System&) = default;
 };

@@ -10,6 +10,7 @@
 #include "core/base/exception_message.h"
 #include "core/base/named_file.h"
 #include "core/base/separated.h"
+#include "core/model/constants.h"
 #include "core/model/lookup.h"
 #include "core/model/original_types.h"
 
@@ -53,16 +54,25 @@ UnknownType unknown_type(std::string_view kind, const std::string& name,
 class Validator {
   public:
     Validator(const System& system, const Registry& registry, Diagnostics& out, Environment* environment)
-        : system_(system), registry_(registry), out_(out), environment_(environment), groups_(system) {}
+        : system_(system),
+          registry_(registry),
+          out_(out),
+          environment_(environment),
+          constants_(system),
+          groups_(system) {}
 
     void run() {
         unique_ids();
         ambiguous_paths();
         for (const auto& process : system_.processes) {
+            scope_ = &process;
             for (const auto& group : process.groups) check_group(group);
             if (process.module) check_module(process);
         }
-        for (const auto& connection : system_.connections) check_connection(connection);
+        for (const auto& connection : system_.connections) {
+            scope_ = connection.linked ? groups_.find(connection.source).process : nullptr;
+            check_connection(connection);
+        }
         for (const auto& [parameter, unusual] : unusual_)
             out_.warning(unusual.where,
                          unusual.count == 1 ? unusual.message
@@ -142,7 +152,8 @@ class Validator {
                 out_.error(s.name_at,
                            fmt::format("parameter '{}' is given twice, first on line {}", s.name, it->second),
                            "remove one of them");
-            const auto value = parse_parameter(p->kind, s.value);
+            if (p->kind != ParameterKind::text && in_braces(s.value) && !check_formula(s, *p)) continue;
+            const auto value = parse_parameter(p->kind, s.in_force(p->kind));
             if (!value) {
                 const std::string meant = corrected(p->kind, s.value);
                 out_.error(
@@ -158,6 +169,21 @@ class Validator {
         }
     }
 
+    /// Whether a formula has a value that its parameter can take. Reports what is wrong.
+    bool check_formula(const Setting& s, const Parameter& p) {
+        try {
+            const auto v = constants_.value(s.value, scope_);
+            if (v && std::isfinite(*v) && parse_parameter(p.kind, to_text(*v))) return true;
+            if (v)  // otherwise a constant has no value
+                out_.error(s.value_at, fmt::format("{} = '{}' is {}, not {}", p.name, s.value, to_text(*v),
+                                                   describe(p.kind)));
+        } catch (const FormulaError& e) {
+            out_.error(inside(s.value_at, e.at), fmt::format("{} = '{}': {}", p.name, s.value, e.what()),
+                       e.hint);
+        }
+        return false;
+    }
+
     /// Collects values outside of the usual range: a system may have hundreds of them.
     void note_unusual(const Setting& s, const Parameter& p) {
         const auto hint = fmt::format("{} ({}) is meant for {} to {}; the value is used as it is", p.name,
@@ -165,7 +191,7 @@ class Validator {
         auto& unusual = unusual_[{s.value_at.file.get(), hint}];
         if (unusual.count++ > 0) return;
         unusual.where = s.value_at, unusual.hint = hint;
-        unusual.message = fmt::format("{} = {} is outside its usual range", p.name, s.value);
+        unusual.message = fmt::format("{} = {} is outside its usual range", p.name, s.in_force(p.kind));
     }
 
     /// The location of the setting that a type's check() names, or that of the use as a whole.
@@ -490,7 +516,9 @@ class Validator {
     const Registry& registry_;
     Diagnostics& out_;
     Environment* environment_;
-    int found_by_modules_ = 0;  ///< errors
+    Constants constants_;
+    const Process* scope_ = nullptr;  ///< whose constants hold in the item that is checked
+    int found_by_modules_ = 0;        ///< errors
     struct Unusual {
         Location where;
         std::string message, hint;
@@ -512,7 +540,7 @@ void validate(const System& system, const Registry& registry, Diagnostics& diagn
 void apply(const std::vector<Setting>& settings, const std::vector<Parameter>& parameters, void* object) {
     for (const auto& s : settings)
         if (const Parameter* p = find_parameter(parameters, s.name))
-            if (const auto value = parse_parameter(p->kind, s.value))
+            if (const auto value = parse_parameter(p->kind, s.in_force(p->kind)))
                 p->set(object, p->is_path ? ParameterValue(resolved(s.value, s.value_at)) : *value);
 }
 

@@ -9,6 +9,7 @@
 
 #include "core/base/output_files.h"
 #include "core/engine/adopt.h"
+#include "core/model/constants.h"
 #include "core/model/edit.h"
 #include "core/model/lookup.h"
 #include "core/run/argument_checks.h"
@@ -77,6 +78,7 @@ engine::Unchanged unchanged(const model::System& before, const model::System& af
 std::optional<Run> Run::make(model::System system, Registry registry,
                              std::unique_ptr<Environment> environment, const Options& options,
                              Diagnostics& diagnostics) {
+    if (!model::compute(system, diagnostics)) return std::nullopt;
     auto layout = engine::make_layout(system, registry, diagnostics, environment.get());
     if (!check_threads(options.threads, diagnostics) || !layout) return std::nullopt;
     return Run(std::move(system), std::move(registry), std::move(environment), std::move(*layout), options);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -11,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/formula/formula.h"
 #include "core/model/expression.h"
 #include "core/model/lookup.h"
 #include "core/model/system.h"
@@ -40,7 +42,10 @@ ParameterValue value_of(const AttributeOf<Struct>& attribute, const Struct& s) {
     return std::visit(
         [&]<class T>(T Struct::*member) -> ParameterValue {
             constexpr bool is_text = std::is_same_v<T, std::string>;
-            if constexpr (std::is_class_v<T> && !is_text) return std::string();
+            if constexpr (std::is_same_v<T, std::optional<double>>)
+                return s.*member ? to_text(*(s.*member)) : std::string();
+            else if constexpr (std::is_class_v<T> && !is_text)
+                return std::string();
             if constexpr (!std::is_class_v<T>)
                 if (!choices.empty()) return choices[static_cast<std::size_t>(s.*member)];
             if constexpr (is_text || std::is_same_v<T, bool> || std::is_same_v<T, double>)
@@ -49,6 +54,15 @@ ParameterValue value_of(const AttributeOf<Struct>& attribute, const Struct& s) {
                 return static_cast<int>(s.*member);
         },
         attribute.member);
+}
+
+/// The formula that gives an attribute its value; null when there is none.
+template <class Struct>
+const std::string* formula_of(const AttributeOf<Struct>& attribute, const Struct& s) {
+    if constexpr (requires { s.formulas; })
+        for (const auto& f : s.formulas)
+            if (f.attribute == attribute.rule.name && f.holds(s)) return &f.text;
+    return nullptr;
 }
 
 /// An element that describes a `Struct`. Its attributes are in the order in which they are written.
@@ -64,10 +78,18 @@ struct ElementOf {
         std::vector<AttributeRule> out;
         for (const auto& attribute : attributes) {
             auto& rule = out.emplace_back(attribute.rule);
+            rule.value.formula = may_be_formula(attribute);
             if (!rule.required) rule.value.otherwise = to_text(value_of(attribute, Struct()));
         }
         out.insert(out.end(), further_attributes.begin(), further_attributes.end());
         return out;
+    }
+    /// Whether the value is a number for which the struct can keep a formula.
+    static bool may_be_formula(const AttributeOf<Struct>& attribute) {
+        if constexpr (requires(Struct s) { s.formulas; })
+            return std::holds_alternative<int Struct::*>(attribute.member) ||
+                   std::holds_alternative<double Struct::*>(attribute.member);
+        return false;
     }
     operator ElementRule() const { return {name, doc, content, rules(), choose, or_none}; }
 
@@ -83,6 +105,18 @@ struct ElementOf {
             std::visit(
                 [&]<class T>(T Struct::*member) {
                     T& to = s.*member;
+                    if constexpr (requires { s.formulas; } &&
+                                  (std::is_same_v<T, int> || std::is_same_v<T, double>))
+                        if (in_braces(value.view)) {
+                            constexpr double largest = std::is_same_v<T, int>
+                                                           ? std::numeric_limits<int>::max()
+                                                           : std::numeric_limits<double>::max();
+                            const auto& rule = attribute.rule.value;
+                            s.formulas.push_back({member, attribute.rule.name, text,
+                                                  std::max(rule.low, -largest), std::min(rule.high, largest),
+                                                  true, 0, value.where()});
+                            return;
+                        }
                     if constexpr (std::is_same_v<T, std::string>)
                         to = text;
                     else if constexpr (std::is_same_v<T, model::Expression>)

@@ -9,6 +9,7 @@
 #include "core/base/named_file.h"
 #include "core/base/number.h"
 #include "core/base/separated.h"
+#include "core/formula/formula.h"
 #include "core/model/names.h"
 #include "core/types/parameter.h"
 
@@ -220,6 +221,7 @@ class Checker {
     bool number(const Value& v, const Subject& subject) {
         const std::string_view word = v.view;
         const ValueRule& rule = subject.rule;
+        if (rule.formula && in_braces(word)) return true;  // model::compute() checks it
         const bool whole = rule.kind == ValueKind::whole;
         const auto wrong = [&](std::string_view what, std::string hint) {
             out_.error(v.where(), fmt::format("{} = {}", subject.label(), what), std::move(hint));

@@ -27,7 +27,8 @@ std::string place_of(const SourceElement& e) {
 
 /// Whether the first attribute that the writer gives an element is its id or its name.
 bool has_own_name(std::string_view name) {
-    return is_item(name) || is_canvas_part(name) || name == "Parameter" || name == "XRef";
+    return is_item(name) || is_canvas_part(name) || name == "Parameter" || name == "XRef" ||
+           name == "Constant";
 }
 
 /// What two elements of the writer share that are the same one before and after a change. Elements without a

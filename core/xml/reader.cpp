@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/model/constants.h"
 #include "core/model/lookup.h"
 #include "core/xml/canvas.h"
 #include "core/xml/check.h"
@@ -52,6 +53,7 @@ class Reader {
     model::System system() {
         const Element& e = document_.root();
         auto s = located<model::System>(e);
+        s.constants = constants(e);
         s.note = note(e);
         s.comments = comments_of(e);
         s.canvas_comments = canvas_parts<model::CanvasComment>(e);
@@ -103,6 +105,11 @@ class Reader {
                 if (const auto* p = std::get_if<Part>(&part)) out.push_back(*p);
         return out;
     }
+    static std::vector<model::Constant> constants(const Element& e) {
+        std::vector<model::Constant> out;
+        for (const Element& c : e.children("Constant")) out.push_back(located<model::Constant>(c));
+        return out;
+    }
     static std::optional<std::string> note(const Element& e) {
         const Element n = e.child("Note");
         return n ? std::optional(n.text()) : std::nullopt;
@@ -118,6 +125,7 @@ class Reader {
         p.comments = comments_of(e);
         p.canvas_comments = canvas_parts<model::CanvasComment>(e);
         p.phantoms = canvas_parts<model::Phantom>(e);
+        p.constants = constants(e);
         if (const Element m = e.child("Module")) p.module = module(m);
         p.note = note(e);
         p.icon = icon(e);
@@ -299,12 +307,14 @@ auto build(const Document* document, const Format& format, Diagnostics& diagnost
 }
 
 std::optional<model::System> build_system(const Document* document, Diagnostics& diagnostics) {
-    return build(document, system_format(), diagnostics, [&](const Document& d) {
+    auto out = build(document, system_format(), diagnostics, [&](const Document& d) {
         model::System system = Reader(d, diagnostics).system();
         for (auto& p : system.processes)
             if (!p.path.empty()) link(p, system, diagnostics);
         return system;
     });
+    if (out && !model::compute(*out, diagnostics)) out.reset();
+    return out;
 }
 
 }  // namespace

@@ -43,6 +43,7 @@ struct ValueRule {
     std::vector<std::string> choices = {};
     std::size_t least = 1, most = 1;  ///< smallest and largest count of numbers
     bool may_be_empty = false;        ///< whether an empty element counts as absent
+    bool formula = false;             ///< whether a number may be a formula in braces
     bool decisive = false;  ///< whether what depends on the value cannot be checked when it is wrong
 
     /// Another rule, which holds in an element whose `attribute` has the value `value`.

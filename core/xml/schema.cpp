@@ -81,6 +81,15 @@ class Schema : Printer {
     }
 
     void value(const ValueRule& rule) {
+        if (!rule.formula) return plain(rule);
+        open("choice");
+        plain(rule);
+        open("data", {{"type", "string"}}), open("param", {{"name", "pattern"}}), text("\\{.*\\}"), close(),
+            close();
+        close();
+    }
+
+    void plain(const ValueRule& rule) {
         switch (rule.kind) {
             case ValueKind::boolean:
                 return choice_of({"true", "false"});

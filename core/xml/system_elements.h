@@ -62,7 +62,7 @@ inline auto system_elements() {
     return std::tuple{
         element<System>(
             "System", "a brain model: processes and the connections between their groups",
-            "Note? Process Connection",
+            "Constant Note? Process Connection",
             {{&System::id, id()},
              {&System::name, name()},
              {&System::author, text("author", "the author")},
@@ -80,7 +80,7 @@ inline auto system_elements() {
                     {required(choice("type", "what the part is", {"Process"}))}},
         element<Process>(
             "Process", "a part of the system: groups, and possibly the module that ties them to the outside",
-            "Module? Note? DiagramIcon? Group",
+            "Constant Module? Note? DiagramIcon? Group",
             {{&Process::id, id()},
              {&Process::name, name()},
              {&Process::hostname, omit_default(text("hostname", "without effect"))},
@@ -91,6 +91,15 @@ inline auto system_elements() {
                   text("path", "file of a linked process, relative to this file; empty: not linked")),
               &Process::path_at},
              {&Process::color, color()}}),
+        element<Constant>(
+            "Constant", "a number with a name, which formulas in braces use", "",
+            {{&Constant::name, required(text("name", "letters, digits and _")), &Constant::name_at},
+             {&Constant::value, required(text("value", "a number, or a formula in braces")),
+              &Constant::value_at},
+             {&Constant::minimum, omit_default(number("minimum", "smallest value"))},
+             {&Constant::maximum, omit_default(number("maximum", "largest value"))},
+             {&Constant::unit, omit_default(text("unit", "of the value; without effect"))},
+             {&Constant::doc, omit_default(text("doc", "what it means"))}}),
         element<ModuleUse>("Module", "what ties the process to the outside", "Parameter XRefHolder Note?",
                            {{&ModuleUse::type, name_of(Names::module, "the module type"), &ModuleUse::at}}),
         element<Setting>(

@@ -16,6 +16,7 @@ class Writer : Printer {
     void system(const model::System& s) {
         comments(s.comments);
         begin(s);
+        for (const auto& c : s.constants) leaf_of(c);
         note(s.note);
         for (const auto& p : s.processes) process(p.linked() ? p.placeholder.front() : p);
         for (const auto& c : s.connections)
@@ -45,7 +46,10 @@ class Writer : Printer {
     template <class Struct>
     void attributes(const Struct& s) {
         for (const auto& a : element_of<Struct>().attributes)
-            if (const auto value = value_of(a, s); !a.rule.omit_default || value != value_of(a, Struct()))
+            if (const auto* formula = formula_of(a, s))
+                attribute(a.rule.name.c_str(), *formula);
+            else if (const auto value = value_of(a, s);
+                     !a.rule.omit_default || value != value_of(a, Struct()))
                 attribute(a.rule.name.c_str(), value);
     }
 
@@ -65,6 +69,7 @@ class Writer : Printer {
     void process(const model::Process& p) {
         comments(p.comments);
         begin(p);
+        for (const auto& c : p.constants) leaf_of(c);
         if (p.module) {
             use(*p.module);
             references("InputFromGroup", p.module->inputs);

@@ -280,7 +280,7 @@ json describe_settings(const model::TypeUse& use, const model::TypeUse* saved,
     const auto value = [](const model::TypeUse& from, const Parameter& p) {
         const auto it = std::ranges::find(from.settings, p.name, &model::Setting::name);
         if (it == from.settings.end()) return json_of(p.default_value);
-        const auto parsed = parse_parameter(p.kind, it->value);
+        const auto parsed = parse_parameter(p.kind, it->in_force(p.kind));
         return parsed ? json_of(*parsed) : json(it->value);
     };
     json out = json::array();

@@ -334,7 +334,7 @@ bool Session::saved_values(json& described) const {
         const auto it = std::ranges::find(use.settings, p["name"].get<std::string>(), &model::Setting::name);
         if (it == use.settings.end()) return p["default"];
         if (p["kind"] == "text") return json(it->value);
-        const json parsed = json::parse(it->value, nullptr, false);
+        const json parsed = json::parse(it->in_force(ParameterKind::real), nullptr, false);
         return parsed.is_discarded() ? json(it->value) : parsed;
     };
     for (auto& p : described["parameters"]) {

@@ -1,0 +1,275 @@
+#include "core/model/constants.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "core/base/number.h"
+#include "core/model/lookup.h"
+
+namespace forage::model {
+namespace {
+
+/// What ends a formula whose constant has a mistake of its own.
+struct FollowsFromConstant {};
+/// What ends all formulas of constants that depend on each other.
+struct Circle {
+    std::vector<const Constant*> constants;
+};
+
+std::vector<std::string> names_in(const System& system, const Process* process) {
+    std::vector<std::string> out;
+    for (const auto* all : {process ? &process->constants : nullptr, &system.constants})
+        if (all)
+            for (const auto& c : *all)
+                if (std::ranges::find(out, c.name) == out.end()) out.push_back(c.name);
+    out.emplace_back("dt");
+    return out;
+}
+
+const Constant* named(const std::vector<Constant>& all, std::string_view name) {
+    const auto it = std::ranges::find(all, name, &Constant::name);
+    return it == all.end() ? nullptr : &*it;
+}
+
+/// The constant of the system that a name says, or "Process.name" for one of a process.
+std::pair<const Constant*, const Process*> find_in(const System& system, std::string_view name) {
+    if (const auto* found = named(system.constants, name)) return {found, nullptr};
+    const auto dot = name.rfind('.');
+    if (dot == name.npos) return {};
+    for (const int i : items_named(system.processes, name.substr(0, dot)))
+        if (const auto* found = named(system.processes[i].constants, name.substr(dot + 1)))
+            return {found, &system.processes[i]};
+    return {};
+}
+
+/// Calls f(struct, process) with everything in the items of a system whose numbers may have formulas. The
+/// constants of `process` hold there; it is null where only those of the system do.
+template <class F>
+void each_with_formulas(System& system, F f) {
+    for (auto& p : system.processes)
+        for (auto& g : p.groups)
+            if (auto* rect = std::get_if<RectTopology>(&g.topology)) f(*rect, &p);
+    const GroupIndex groups(system);
+    for (auto& c : system.connections) {
+        const Process* process = c.linked ? groups.find(c.source).process : nullptr;
+        const auto variant = [&](auto& alternatives) {
+            std::visit(
+                [&](auto& one) {
+                    if constexpr (requires { one.formulas; }) f(one, process);
+                },
+                alternatives);
+        };
+        std::visit(
+            [&](auto& pattern) {
+                if constexpr (requires { pattern.source; }) variant(pattern.source), variant(pattern.target);
+            },
+            c.pattern);
+        f(c.arborization, process);
+        variant(c.arborization.shape), variant(c.attenuation.form), variant(c.delay.form);
+    }
+}
+
+/// Calls f(setting, process) with all parameters of a system.
+template <class F>
+void each_setting(System& system, F f) {
+    const GroupIndex groups(system);
+    for (auto& p : system.processes) {
+        if (p.module)
+            for (auto& s : p.module->settings) f(s, &p);
+        for (auto& g : p.groups)
+            for (auto& s : g.neuron.settings) f(s, &p);
+    }
+    for (auto& c : system.connections)
+        if (c.synapse)
+            for (auto& s : c.synapse->settings) f(s, c.linked ? groups.find(c.source).process : nullptr);
+}
+
+}  // namespace
+
+Location inside(Location value, std::size_t offset) {
+    if (value.column > 0) value.column += static_cast<int>(offset);
+    return value;
+}
+
+Constants::Defined Constants::find(std::string_view name, const Process* process) const {
+    const Constant* own = process ? named(process->constants, name) : nullptr;
+    return own ? Defined{own, process} : Defined{named(system_.constants, name), nullptr};
+}
+
+double Constants::value_of(const Defined& defined) {
+    if (const auto it = known_.find(defined.constant); it != known_.end()) {
+        if (!it->second) throw FollowsFromConstant();
+        return *it->second;
+    }
+    auto& out = known_[defined.constant];
+    open_.push_back(defined.constant);
+    try {
+        out = evaluate(defined.constant->value, defined.process);
+        if (!std::isfinite(*out)) out.reset();
+    } catch (const FormulaError&) {  // check() reports it
+    } catch (...) {
+        open_.pop_back();
+        throw;
+    }
+    open_.pop_back();
+    if (!out) throw FollowsFromConstant();
+    return *out;
+}
+
+std::optional<double> Constants::value(std::string_view text, const Process* process) {
+    try {
+        return evaluate(text, process);
+    } catch (const FollowsFromConstant&) {
+    } catch (const Circle&) {
+    }
+    return std::nullopt;
+}
+
+double Constants::evaluate(std::string_view text, const Process* process) {
+    if (!in_braces(text)) {
+        if (const auto number = parse_number<double>(text)) return *number;
+        throw FormulaError(0, no_number(text), "a formula stands in braces: {2 * x}");
+    }
+    const auto inner = text.substr(1, text.size() - 2);
+    try {
+        return Formula(inner).value([&](const std::string& name, std::size_t at) {
+            const auto defined = find(name, process);
+            if (defined.constant) {
+                const auto open = std::ranges::find(open_, defined.constant);
+                if (open == open_.end()) return value_of(defined);
+                throw Circle{{open, open_.end()}};
+            }
+            if (name != "dt")
+                throw FormulaError(at, fmt::format("there is no constant '{}'", name),
+                                   suggest(name, names_in(system_, process)));
+            if (rate_ == 0)
+                throw FormulaError(at, "cylesPerSecond cannot depend on dt, which is 1 / cylesPerSecond");
+            return 1 / rate_;
+        });
+    } catch (const FormulaError& e) {
+        throw FormulaError(e.at + 1, e.what(), e.hint);
+    }
+}
+
+std::optional<double> Constants::value_of(std::string_view name) {
+    const auto [constant, process] = find_in(system_, name);
+    return constant ? value(constant->value, process) : std::nullopt;
+}
+
+void Constants::check(Diagnostics& diagnostics) {
+    check(system_.constants, nullptr, diagnostics);
+    for (const auto& p : system_.processes) check(p.constants, &p, diagnostics);
+}
+
+void Constants::check(const std::vector<Constant>& all, const Process* process, Diagnostics& diagnostics) {
+    std::map<std::string_view, const Constant*> seen;
+    for (const auto& c : all) {
+        if (!is_formula_name(c.name) || c.name == "dt")
+            diagnostics.error(
+                c.name_at, fmt::format("a constant cannot be called '{}'", c.name),
+                "letters, digits and _, not first a digit, and no word of formulas such as 'if' or 'dt'");
+        if (const auto [it, fresh] = seen.emplace(c.name, &c); !fresh)
+            diagnostics.error(
+                c.name_at,
+                fmt::format("the constant '{}' is already defined on line {}", c.name, it->second->at.line),
+                "remove one of them");
+        if (c.minimum && c.maximum && *c.minimum > *c.maximum)
+            diagnostics.error(c.at, fmt::format("the minimum of '{}' is larger than its maximum", c.name));
+        open_ = {&c};
+        try {
+            const double v = evaluate(c.value, process);
+            const auto wrong = [&](std::string_view why) {
+                diagnostics.error(c.value_at,
+                                  in_braces(c.value)
+                                      ? fmt::format("{} = {} is {}, {}", c.name, c.value, to_text(v), why)
+                                      : fmt::format("{} = {}, {}", c.name, c.value, why));
+            };
+            if (!std::isfinite(v))
+                wrong("which is not a finite number");
+            else if (c.minimum && v < *c.minimum)
+                wrong(fmt::format("less than its minimum {}", to_text(*c.minimum)));
+            else if (c.maximum && v > *c.maximum)
+                wrong(fmt::format("more than its maximum {}", to_text(*c.maximum)));
+        } catch (const FormulaError& e) {
+            diagnostics.error(inside(c.value_at, e.at),
+                              fmt::format("{} = '{}': {}", c.name, c.value, e.what()), e.hint);
+        } catch (const FollowsFromConstant&) {
+        } catch (const Circle& circle) {
+            if (circle.constants.front() == &c && !in_circles_.contains(&c)) {
+                std::string names;
+                for (const auto* each : circle.constants)
+                    names += each->name + ", ", in_circles_.insert(each);
+                diagnostics.error(c.value_at, fmt::format("constants depend on each other in a circle: {}{}",
+                                                          names, c.name));
+            }
+        }
+        open_.clear();
+    }
+}
+
+bool compute(System& system, Diagnostics& diagnostics) {
+    bool complete = true;
+    const auto numbers = [&]<class Struct>(Constants& constants, Struct& s, const Process* process) {
+        std::erase_if(s.formulas, [&](const auto& f) { return !f.holds(s); });  // edited since
+        for (auto& f : s.formulas) {
+            try {
+                const auto v = constants.value(f.text, process);
+                const bool whole = std::holds_alternative<int Struct::*>(f.member);
+                const auto wrong = [&](std::string_view why) {
+                    diagnostics.error(
+                        f.at, fmt::format("{} = '{}' is {}, {}", f.attribute, f.text, to_text(*v), why));
+                };
+                if (!v) {  // a constant has a mistake
+                } else if (!std::isfinite(*v))
+                    wrong("which is not a finite number");
+                else if (whole && *v != std::trunc(*v))
+                    wrong("which is not a whole number");
+                else if (*v < f.low || *v > f.high)
+                    wrong(fmt::format("which is not from {} to {}", to_text(f.low), to_text(f.high)));
+                else {
+                    std::visit([&]<class T>(T Struct::*member) { s.*member = static_cast<T>(*v); }, f.member);
+                    f.value = *v, f.fresh = false;
+                }
+            } catch (const FormulaError& e) {
+                diagnostics.error(inside(f.at, e.at),
+                                  fmt::format("{} = '{}': {}", f.attribute, f.text, e.what()), e.hint);
+            }
+            complete = complete && !f.fresh;
+        }
+    };
+    Constants before(system, 0);
+    numbers(before, system, nullptr);
+    Constants constants(system);
+    constants.check(diagnostics);
+    each_with_formulas(system, [&](auto& s, const Process* process) { numbers(constants, s, process); });
+    each_setting(system, [&](Setting& s, const Process* process) {
+        s.computed.clear();
+        if (!in_braces(s.value)) return;
+        try {
+            if (const auto v = constants.value(s.value, process); v && std::isfinite(*v))
+                s.computed = to_text(*v);
+        } catch (const FormulaError&) {  // validate() reports it, if the parameter is a number
+        }
+    });
+    return complete;
+}
+
+const Constant* find_constant(const System& system, std::string_view name) {
+    return find_in(system, name).first;
+}
+Constant* find_constant(System& system, std::string_view name) {
+    return const_cast<Constant*>(find_constant(std::as_const(system), name));
+}
+
+std::vector<std::string> constant_names(const System& system) {
+    std::vector<std::string> out;
+    for (const auto& c : system.constants) out.push_back(c.name);
+    for (const auto& p : system.processes)
+        for (const auto& c : p.constants) out.push_back(fmt::format("{}.{}", trim(p.name), c.name));
+    return out;
+}
+
+}  // namespace forage::model

@@ -1,0 +1,68 @@
+// Constants, and what formulas in a system mean.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/formula/formula.h"
+#include "core/model/system.h"
+
+namespace forage::model {
+
+/// The values of the constants of a system and its processes. It holds pointers into the system and is
+/// invalid after an edit.
+class Constants {
+  public:
+    explicit Constants(const System& system)
+        : Constants(system, system.cycles_per_second > 0 ? system.cycles_per_second : 25) {}
+    /// `rate` are the cycles per second, of which `dt` is made; 0: it cannot be used.
+    Constants(const System& system, double rate) : system_(system), rate_(rate) {}
+
+    /// The value of a text that is a number, or a formula in braces of the constants that hold in a process
+    /// (in the system as a whole when `process` is null): its own, then those of the system, and `dt`, the
+    /// seconds per cycle. Throws FormulaError. Empty when a constant that it uses has no value; that is
+    /// reported where the constant is defined.
+    std::optional<double> value(std::string_view text, const Process* process);
+
+    /// The value of the constant that a name says (find_constant()); empty when it has none.
+    std::optional<double> value_of(std::string_view name);
+
+    /// Reports all mistakes in the definitions of constants.
+    void check(Diagnostics& diagnostics);
+
+  private:
+    struct Defined {
+        const Constant* constant;
+        const Process* process;  ///< null: the system's
+    };
+    Defined find(std::string_view name, const Process* process) const;
+    double value_of(const Defined& defined);
+    double evaluate(std::string_view text, const Process* process);
+    void check(const std::vector<Constant>& all, const Process* process, Diagnostics& diagnostics);
+
+    const System& system_;
+    double rate_;
+    std::map<const Constant*, std::optional<double>> known_;
+    std::vector<const Constant*> open_;     ///< those that are being computed, to find circles
+    std::set<const Constant*> in_circles_;  ///< those that check() has reported
+};
+
+/// Computes all formulas of a system: sets the numbers that have one, and Setting::computed. Reports mistakes
+/// in constants and in formulas of numbers; those of parameters are reported by validate(), which knows their
+/// types. Returns whether all numbers have a value.
+bool compute(System& system, Diagnostics& diagnostics);
+
+/// The constant that "name", or "Process.name" for one of a process, says; null when there is none.
+const Constant* find_constant(const System& system, std::string_view name);
+Constant* find_constant(System& system, std::string_view name);
+/// The names of all constants, as find_constant() takes them.
+std::vector<std::string> constant_names(const System& system);
+
+/// The place of the byte `offset` of a value in a file.
+Location inside(Location value, std::size_t offset);
+
+}  // namespace forage::model
