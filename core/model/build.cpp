@@ -276,6 +276,9 @@ ProcessFile extract_process(const System& system, std::string_view id) {
             out.connections.push_back(c);
             out.connections.back().linked = false;
         }
+    for (const auto& c : system.constants)  // on which its formulas may depend
+        if (std::ranges::find(it->constants, c.name, &Constant::name) == it->constants.end())
+            out.process.constants.push_back(c);
     return out;
 }
 

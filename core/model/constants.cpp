@@ -54,7 +54,7 @@ void each_with_formulas(System& system, F f) {
             if (auto* rect = std::get_if<RectTopology>(&g.topology)) f(*rect, &p);
     const GroupIndex groups(system);
     for (auto& c : system.connections) {
-        const Process* process = c.linked ? groups.find(c.source).process : nullptr;
+        const Process* process = scope_of(c, groups);
         const auto variant = [&](auto& alternatives) {
             std::visit(
                 [&](auto& one) {
@@ -84,10 +84,15 @@ void each_setting(System& system, F f) {
     }
     for (auto& c : system.connections)
         if (c.synapse)
-            for (auto& s : c.synapse->settings) f(s, c.linked ? groups.find(c.source).process : nullptr);
+            for (auto& s : c.synapse->settings) f(s, scope_of(c, groups));
 }
 
 }  // namespace
+
+const Process* scope_of(const Connection& connection, const GroupIndex& groups) {
+    const Process* process = groups.find(connection.source).process;
+    return process == groups.find(connection.target).process ? process : nullptr;
+}
 
 Location inside(Location value, std::size_t offset) {
     if (value.column > 0) value.column += static_cast<int>(offset);
@@ -255,6 +260,16 @@ bool compute(System& system, Diagnostics& diagnostics) {
         }
     });
     return complete;
+}
+
+void write_out_formulas(System& system) {
+    each_with_formulas(system, [](auto& s, const Process*) { s.formulas.clear(); });
+    system.formulas.clear();
+    each_setting(system, [](Setting& s, const Process*) {
+        if (!s.computed.empty()) s.value = std::exchange(s.computed, {});
+    });
+    system.constants.clear();
+    for (auto& p : system.processes) p.constants.clear();
 }
 
 const Constant* find_constant(const System& system, std::string_view name) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/formula/formula.h"
+#include "core/model/lookup.h"
 #include "core/model/system.h"
 
 namespace forage::model {
@@ -51,10 +52,16 @@ class Constants {
     std::set<const Constant*> in_circles_;  ///< those that check() has reported
 };
 
+/// The process whose constants hold in a connection: that of both its groups; null when they have two.
+const Process* scope_of(const Connection& connection, const GroupIndex& groups);
+
 /// Computes all formulas of a system: sets the numbers that have one, and Setting::computed. Reports mistakes
 /// in constants and in formulas of numbers; those of parameters are reported by validate(), which knows their
 /// types. Returns whether all numbers have a value.
 bool compute(System& system, Diagnostics& diagnostics);
+
+/// Writes out all formulas as the numbers that they have, and removes the constants.
+void write_out_formulas(System& system);
 
 /// The constant that "name", or "Process.name" for one of a process, says; null when there is none.
 const Constant* find_constant(const System& system, std::string_view name);

@@ -99,6 +99,43 @@ void set_constant(System& system, const Assignment& a, Diagnostics& diagnostics)
     compute(system, diagnostics);
 }
 
+template <class Items>
+auto& with_id(Items& items, std::string_view id) {
+    return *std::ranges::find_if(items, [&](const auto& item) { return item.id == id; });
+}
+
+/// The process whose constants hold in the item of an assignment; null when only those of the system do.
+const Process* scope_of(const System& system, const Assignment& a) {
+    const GroupIndex groups(system);
+    switch (a.owner) {
+        case Assignment::Owner::group:
+            return groups.find(a.id).process;
+        case Assignment::Owner::process:
+            return &with_id(system.processes, a.id);
+        case Assignment::Owner::connection:
+            return model::scope_of(with_id(system.connections, a.id), groups);
+        case Assignment::Owner::constant:
+            break;
+    }
+    return nullptr;
+}
+
+/// What a formula gives a parameter. Reports mistakes.
+ParameterValue formula_value(const System& system, const Assignment& a, const expression::Piece& formula,
+                             const expression::Context& context) {
+    const auto kind = a.parameter ? a.parameter->kind : ParameterKind::boolean;
+    try {
+        const auto v = Constants(system).value(formula.text, scope_of(system, a));
+        const std::string text = v ? to_text(*v) : "";
+        if (const auto parsed = parse_parameter(kind, text)) return *parsed;
+        context.error(formula.at, v ? fmt::format("'{}' is {}, not {}", formula.text, text, describe(kind))
+                                    : fmt::format("a constant in '{}' has no value", formula.text));
+    } catch (const FormulaError& e) {
+        context.error(formula.at + e.at, e.what(), e.hint);
+    }
+    return {};
+}
+
 /// Resolves the owner and the parameter of an assignment; the value is still unset.
 std::optional<Assignment> resolve(const System& system, const Registry& registry,
                                   const expression::Assignment& said, const expression::Context& context) {
@@ -128,11 +165,6 @@ std::optional<Assignment> resolve(const System& system, const Registry& registry
     }
     out.parameter = &*it;
     return out;
-}
-
-template <class Items>
-auto& with_id(Items& items, std::string_view id) {
-    return *std::ranges::find_if(items, [&](const auto& item) { return item.id == id; });
 }
 
 /// The use of a type that has the parameter.
@@ -212,8 +244,13 @@ std::optional<Assignment> parse_assignment(const System& system, const Registry&
     if (!said) return std::nullopt;
     auto out = resolve(system, registry, *said, context);
     if (!out) return std::nullopt;
+    const int errors_before = diagnostics.errors();
     const auto& value = said->value;
     const auto kind = out->parameter ? out->parameter->kind : ParameterKind::boolean;
+    if (kind != ParameterKind::text && in_braces(value.text)) {
+        out->value = formula_value(system, *out, value, context);
+        return context.diagnostics.errors() == errors_before ? out : std::nullopt;
+    }
     const auto parsed = parse_parameter(kind, value.text);
     if (!parsed) {
         context.error(value.at, fmt::format("'{}' is not {}", value.text, describe(kind)),
@@ -291,6 +328,10 @@ void set(System& system, const Assignment& a) {
     set_parameter(use_of(system, a), a.parameter->name,
                   as_written ? std::string(trim(std::string_view(a.text).substr(a.text.find('=') + 1)))
                              : to_text(a.value));
+    if (as_written && a.text.ends_with('}')) {
+        Diagnostics none;  // parse_assignment() has reported what is wrong
+        compute(system, none);
+    }
 }
 
 System with(const System& system, const Assignment& assignment) {

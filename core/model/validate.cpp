@@ -70,7 +70,7 @@ class Validator {
             if (process.module) check_module(process);
         }
         for (const auto& connection : system_.connections) {
-            scope_ = connection.linked ? groups_.find(connection.source).process : nullptr;
+            scope_ = scope_of(connection, groups_);
             check_connection(connection);
         }
         for (const auto& [parameter, unusual] : unusual_)

@@ -9,6 +9,7 @@
 #include "core/base/print.h"
 #include "core/base/separated.h"
 #include "core/model/build.h"
+#include "core/model/constants.h"
 #include "core/model/edit.h"
 #include "core/model/lookup.h"
 #include "core/xml/reader.h"
@@ -87,7 +88,14 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
                               "convert SYSTEM.iqr OUT.iqr --import FILE");
             return {};
         }
-        if (o.original) model::complete({&file->process, 1}, file->connections);
+        if (o.original) {
+            model::complete({&file->process, 1}, file->connections);
+            model::System alone{.processes = {std::move(file->process)},
+                                .connections = std::move(file->connections)};
+            model::compute(alone, diagnostics);
+            model::write_out_formulas(alone);
+            file = {std::move(alone.processes.front()), std::move(alone.connections)};
+        }
         return xml::write_process(*file);
     }
     auto system = xml::read_system(o.input, diagnostics);
@@ -100,7 +108,8 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
                 diagnostics.error({std::make_shared<SourceFile>(SourceFile{path, {}})}, e.what());
             }
     if (o.embed) model::embed_links(*system);
-    if (o.original) model::complete(system->processes, system->connections);
+    if (o.original)
+        model::complete(system->processes, system->connections), model::write_out_formulas(*system);
     if (!to_process && !o.extract.empty()) {
         diagnostics.error({},
                           fmt::format("--extract writes a process file, '{}' would be a system", o.output),

@@ -289,7 +289,8 @@ void add_convert(CLI::App& app, ConvertOptions& o) {
     add_plugins(convert, o.plugins);
     convert.add_flag("--embed", o.embed, "Write the content of linked processes instead of links");
     convert.add_flag("--original", o.original,
-                     "Write what the file leaves out and the original iqr requires: patterns, arborizations, "
+                     "Write plain numbers instead of constants and formulas, and what the file leaves out "
+                     "and the original iqr requires: patterns, arborizations, "
                      "functions, places in the diagram");
     convert.add_flag("--lenient", o.lenient,
                      "Unknown elements and attributes are warnings, and are not written");

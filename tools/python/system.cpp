@@ -253,6 +253,12 @@ Raises InputError for mistakes in the system, and ValueError for another format.
         .def_property_readonly(
             "processes", [](PythonSystem& self) { return items<SystemProcess>(self, self.model.processes); },
             "The processes, in the order of the file.")
+        .def_property_readonly(
+            "constants",
+            [](PythonSystem& self) {
+                return SystemConstants{{self.shared_from_this(), ""}};
+            },
+            "The constants of the system, by name, to read and to set.")
         .def_property_readonly("groups", &all_groups,
                                "The groups of all processes, in the order of the file.")
         .def_property_readonly(

@@ -54,6 +54,14 @@ struct SystemParameters : SystemItem {
     std::vector<std::string> names() const;
 };
 
+/// The constants of a process, or those of the system as a whole when the id is empty.
+struct SystemConstants : SystemItem {
+    py::object get(const std::string& name) const;
+    /// Throws InputError.
+    void set(const std::string& name, const py::object& value) const;
+    std::vector<std::string> names() const;
+};
+
 /// Adds a property to a class that shows a part of a model: one of the model's members.
 template <class Class, class Model, class T>
 void add_member(Class& type, const char* name, T Model::*member, const char* doc) {
@@ -63,6 +71,8 @@ void add_member(Class& type, const char* name, T Model::*member, const char* doc
         [member](Self& self, const T& value) { self.use().*member = value; }, doc);
 }
 
+/// Adds the class of constants to the class System.
+void add_system_constants(py::handle system);
 /// Adds the classes of its items to the class System.
 void add_system_items(py::handle system);
 

@@ -280,6 +280,9 @@ void add_processes(py::handle scope) {
     ports("inputs", &model::ModuleUse::inputs, "The groups that the module reads, by port.");
     ports("outputs", &model::ModuleUse::outputs, "The groups that the module writes, by port.");
     type.def_property_readonly("groups", &groups, "The groups, in the order of the file.")
+        .def_property_readonly(
+            "constants", [](const SystemProcess& self) { return SystemConstants{self}; },
+            "The constants of the process, by name; they hide those of the system.")
         .def_property_readonly("module", &type_of, "The name of the module's type; None without a module.")
         .def_property_readonly(
             "linked", [](const SystemProcess& self) { return self.use().linked(); },
@@ -499,6 +502,7 @@ py::object item_of(PythonSystem& system, const std::string& name) {
 
 void add_system_items(py::handle system) {
     add_system_parameters(system);
+    add_system_constants(system);
     add_processes(system);
     add_groups_of_systems(system);
     add_connections(system);

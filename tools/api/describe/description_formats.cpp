@@ -96,6 +96,8 @@ std::vector<Table> tables(const SystemDescription& d) {
                      number_of(d.connections.size(), "connection"), number_of(d.synapses(), "synapse"))},
         {"Clock", d.cycles_per_second > 0 ? fmt::format("{} cycles per second", d.cycles_per_second)
                                           : "as fast as possible"}};
+    Table constants{"Constants", {"Constant", "Value", "Unit", "Meaning"}, {0, 0, 0, 0.5}, {}};
+    for (const auto& c : d.constants) constants.rows.push_back({c.name, to_text(c.value), c.unit, c.doc});
     Table modules{"Modules", {"Process", "Module", "Reads", "Writes"}, {0, 0.3, 0.22, 0.22}, {}};
     Table groups{"Populations", {"Group", "Size", "Neuron", "Parameters"}, {0.28, 0, 0, 0.32}, {}};
     Table connections{"Connections",
@@ -122,7 +124,7 @@ std::vector<Table> tables(const SystemDescription& d) {
                                     with_parameters(c.synapse)});
     }
     std::vector<Table> out{std::move(summary)};
-    for (Table* t : {&modules, &groups, &connections})
+    for (Table* t : {&constants, &modules, &groups, &connections})
         if (!t->rows.empty()) out.push_back(std::move(*t));
     return out;
 }
@@ -140,6 +142,10 @@ std::string as_text(const SystemDescription& d) {
         fmt::format("{}: {}, {} ({}), {} ({})\n", d.name, number_of(d.processes.size(), "process", "es"),
                     number_of(d.groups(), "group"), number_of(d.cells(), "cell"),
                     number_of(d.connections.size(), "connection"), number_of(d.synapses(), "synapse"));
+    if (!d.constants.empty()) out += "\nConstants\n";
+    for (const auto& c : d.constants)
+        out += fmt::format("    {} = {}{}{}\n", c.name, to_text(c.value), c.unit.empty() ? "" : " " + c.unit,
+                           c.doc.empty() ? "" : ": " + c.doc);
     for (const auto& p : d.processes) {
         out += fmt::format("\n{}{}\n", p.name, p.file.empty() ? "" : ", linked to " + p.file);
         if (!p.module.type.empty()) {
@@ -224,7 +230,9 @@ std::string as_dot(const SystemDescription& d) {
 
 std::string as_json(const SystemDescription& d) {
     using Json = nlohmann::ordered_json;
-    Json processes = Json::array(), connections = Json::array();
+    Json processes = Json::array(), connections = Json::array(), constants = Json::array();
+    for (const auto& c : d.constants)
+        constants.push_back({{"name", c.name}, {"value", c.value}, {"unit", c.unit}, {"doc", c.doc}});
     for (const auto& p : d.processes) {
         Json groups = Json::array(), module = nullptr;
         for (const auto& g : p.groups)
@@ -263,13 +271,10 @@ std::string as_json(const SystemDescription& d) {
                                {"delay", c.delay},
                                {"synapse", json_of(c.synapse)},
                                {"notes", c.notes}});
-    return Json{{"name", d.name},
-                {"author", d.author},
-                {"date", d.date},
-                {"cycles_per_second", d.cycles_per_second},
-                {"notes", d.notes},
-                {"processes", processes},
-                {"connections", connections}}
+    return Json{{"name", d.name},         {"author", d.author},
+                {"date", d.date},         {"cycles_per_second", d.cycles_per_second},
+                {"constants", constants}, {"notes", d.notes},
+                {"processes", processes}, {"connections", connections}}
                .dump(2) +
            "\n";
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/model/constants.h"
 #include "core/model/lookup.h"
 
 namespace forage {
@@ -20,7 +21,7 @@ Cases(F...) -> Cases<F...>;
 
 TypeDescription describe(const model::TypeUse& use) {
     TypeDescription out{use.type, {}};
-    for (const auto& s : use.settings) out.parameters.emplace_back(s.name, s.value);
+    for (const auto& s : use.settings) out.parameters.emplace_back(s.name, s.in_force(ParameterKind::real));
     return out;
 }
 
@@ -161,9 +162,15 @@ SystemDescription describe(const model::System& system, const engine::Simulation
                           .author = system.author,
                           .date = system.date,
                           .cycles_per_second = system.cycles_per_second,
+                          .constants = {},
                           .processes = {},
                           .connections = {},
                           .notes = system.note.value_or("")};
+    model::Constants constants(system);
+    for (const auto& name : model::constant_names(system)) {
+        const auto* constant = model::find_constant(system, name);
+        out.constants.push_back({name, constants.value_of(name).value_or(0), constant->unit, constant->doc});
+    }
     Paths paths;
     const auto in_order = model::group_paths(system);
     auto next = in_order.begin();

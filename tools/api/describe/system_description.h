@@ -12,7 +12,7 @@
 
 namespace forage {
 
-/// A type in use, with the parameters that the system sets, with their text in the file.
+/// A type in use, with the parameters that the system sets: their text in the file, or what a formula gives.
 struct TypeDescription {
     std::string type;
     std::vector<std::pair<std::string, std::string>> parameters;
@@ -55,9 +55,16 @@ struct ConnectionDescription {
     std::string notes;
 };
 
+struct ConstantDescription {
+    std::string name;  ///< "name", or "Process.name" for one of a process
+    double value = 0;
+    std::string unit, doc;  ///< may be empty
+};
+
 struct SystemDescription {
     std::string name, author, date;
     double cycles_per_second = 0;  ///< Hz; 0: as fast as possible
+    std::vector<ConstantDescription> constants;
     std::vector<ProcessDescription> processes;
     std::vector<ConnectionDescription> connections;
     std::string notes;

@@ -13,6 +13,7 @@
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
 #include "core/model/build.h"
+#include "core/model/constants.h"
 #include "core/model/edit.h"
 #include "core/model/lookup.h"
 #include "core/model/validate.h"
@@ -175,6 +176,7 @@ std::optional<model::System> read_any(const std::string& path, Diagnostics& diag
     system.name = file->process.name;
     system.processes.push_back(std::move(file->process));
     system.connections = std::move(file->connections);
+    model::compute(system, diagnostics);
     return system;
 }
 

@@ -28,7 +28,13 @@ const std::string file_with_constants = R"(<System id="s" name="S" cylesPerSecon
     <Group id="b" name="B"><Topology><TopologyRect hcount="{channels + 1}" vcount="1"/></Topology>
       <Neuron name="neuronLinearThreshold"/></Group>
   </Process>
-  <Connection id="c" name="A to B" type="excitatory" source="a" target="b">
+  <Process id="q" name="Q">
+    <Group id="c2" name="C"><Topology><TopologyRect hcount="4" vcount="1"/></Topology><Neuron name="neuronLinearThreshold"/></Group>
+  </Process>
+  <Connection id="within" name="Within" type="inhibitory" source="a" target="b">
+    <Synapse name="synapseFixedWeight"><Parameter name="weight" value="{bias}"/></Synapse>
+  </Connection>
+  <Connection id="c" name="A to C" type="excitatory" source="a" target="c2">
     <Pattern><PatternForeach><Region xstart="{channels - 1}" ystart="1" width="2" height="1"/><All/></PatternForeach></Pattern>
     <DelayFunction><FunUniform value="{round(0.02 / dt)}"/></DelayFunction>
     <Synapse name="synapseFixedWeight"><Parameter name="weight" value="{-lambda}"/></Synapse>
@@ -62,7 +68,7 @@ std::string mistakes(const std::string& content) {
 }
 
 double weight(const System& s) {
-    return *parse_number<double>(s.connections[0].synapse->settings[0].in_force(ParameterKind::real));
+    return *parse_number<double>(s.connections[1].synapse->settings[0].in_force(ParameterKind::real));
 }
 int cells(const System& s, int group) { return shape(s.processes[0].groups[group].topology).cells; }
 
@@ -75,8 +81,8 @@ TEST_CASE("formulas give numbers of every kind their values") {
     CHECK(cells(s, 1) == 7);
     CHECK(s.processes[0].groups[0].neuron.settings[0].computed == "0.5");  // the lambda of the process
     CHECK(weight(s) == -0.25);                                             // that of the system
-    CHECK(std::get<Region>(std::get<ForeachPattern>(s.connections[0].pattern).source).x == 5);
-    CHECK(std::get<UniformFunction>(s.connections[0].delay.form).value == 5);
+    CHECK(std::get<Region>(std::get<ForeachPattern>(s.connections[1].pattern).source).x == 5);
+    CHECK(std::get<UniformFunction>(s.connections[1].delay.form).value == 5);
 }
 
 TEST_CASE("a constant that changes, changes what depends on it") {
@@ -96,7 +102,7 @@ TEST_CASE("a constant that changes, changes what depends on it") {
     const auto changes = parameter_changes(before, more, types);
     REQUIRE(changes);
     REQUIRE(changes->size() == 1);
-    CHECK(changes->front().text == "A to B.weight=-0.5");
+    CHECK(changes->front().text == "A to C.weight=-0.5");
 
     CHECK(set_to("P.bias=0.25").processes[0].groups[0].neuron.settings[0].computed == "0.75");
     CHECK(weight(set_to("lambda={ms / 8}")) == -0.5);
