@@ -87,6 +87,34 @@ void each_setting(System& system, F f) {
             for (auto& s : c.synapse->settings) f(s, scope_of(c, groups));
 }
 
+/// Gives a number the value of its formula. Reports one that it cannot have.
+template <class Struct>
+void take(Struct& s, NumberFormula<Struct>& f, double v, Diagnostics& diagnostics) {
+    const auto wrong = [&](std::string_view why) {
+        diagnostics.error(f.at, fmt::format("{} = '{}' is {:.15g}, {}", f.attribute, f.text, v, why));
+    };
+    if (!std::isfinite(v)) return wrong("which is not a finite number");
+    if (std::holds_alternative<int Struct::*>(f.member) && v != std::trunc(v))
+        return wrong("which is not a whole number");
+    if (v < f.low || v > f.high)
+        return wrong(fmt::format("which is not from {:.15g} to {:.15g}", f.low, f.high));
+    std::visit([&]<class T>(T Struct::*member) { s.*member = static_cast<T>(v); }, f.member);
+    f.value = v, f.fresh = false;
+}
+
+/// Computes the numbers of a struct. Returns whether all of them have a value.
+template <class Struct>
+bool compute_numbers(Constants& constants, Struct& s, const Process* process, Diagnostics& diagnostics) {
+    std::erase_if(s.formulas, [&](const auto& f) { return !f.holds(s); });  // edited since
+    for (auto& f : s.formulas) try {
+            if (const auto v = constants.value(f.text, process)) take(s, f, *v, diagnostics);
+        } catch (const FormulaError& e) {
+            diagnostics.error(inside(f.at, e.at), fmt::format("{} = '{}': {}", f.attribute, f.text, e.what()),
+                              e.hint);
+        }
+    return std::ranges::none_of(s.formulas, [](const auto& f) { return f.fresh; });
+}
+
 }  // namespace
 
 const Process* scope_of(const Connection& connection, const GroupIndex& groups) {
@@ -136,7 +164,10 @@ std::optional<double> Constants::value(std::string_view text, const Process* pro
 double Constants::evaluate(std::string_view text, const Process* process) {
     if (!in_braces(text)) {
         if (const auto number = parse_number<double>(text)) return *number;
-        throw FormulaError(0, no_number(text), "a formula stands in braces: {2 * x}");
+        const std::string meant = corrected(ParameterKind::real, text);
+        throw FormulaError(
+            0, no_number(text),
+            meant.empty() ? "a formula stands in braces: {2 * x}" : fmt::format("did you mean '{}'?", meant));
     }
     const auto inner = text.substr(1, text.size() - 2);
     try {
@@ -181,7 +212,8 @@ void Constants::check(const std::vector<Constant>& all, const Process* process, 
                 c.name_at,
                 fmt::format("the constant '{}' is already defined on line {}", c.name, it->second->at.line),
                 "remove one of them");
-        if (c.minimum && c.maximum && *c.minimum > *c.maximum)
+        const bool swapped = c.minimum && c.maximum && *c.minimum > *c.maximum;
+        if (swapped)
             diagnostics.error(c.at, fmt::format("the minimum of '{}' is larger than its maximum", c.name));
         open_ = {&c};
         try {
@@ -194,9 +226,9 @@ void Constants::check(const std::vector<Constant>& all, const Process* process, 
             };
             if (!std::isfinite(v))
                 wrong("which is not a finite number");
-            else if (c.minimum && v < *c.minimum)
+            else if (!swapped && c.minimum && v < *c.minimum)
                 wrong(fmt::format("less than its minimum {}", to_text(*c.minimum)));
-            else if (c.maximum && v > *c.maximum)
+            else if (!swapped && c.maximum && v > *c.maximum)
                 wrong(fmt::format("more than its maximum {}", to_text(*c.maximum)));
         } catch (const FormulaError& e) {
             diagnostics.error(inside(c.value_at, e.at),
@@ -216,40 +248,14 @@ void Constants::check(const std::vector<Constant>& all, const Process* process, 
 }
 
 bool compute(System& system, Diagnostics& diagnostics) {
-    bool complete = true;
-    const auto numbers = [&]<class Struct>(Constants& constants, Struct& s, const Process* process) {
-        std::erase_if(s.formulas, [&](const auto& f) { return !f.holds(s); });  // edited since
-        for (auto& f : s.formulas) {
-            try {
-                const auto v = constants.value(f.text, process);
-                const bool whole = std::holds_alternative<int Struct::*>(f.member);
-                const auto wrong = [&](std::string_view why) {
-                    diagnostics.error(
-                        f.at, fmt::format("{} = '{}' is {}, {}", f.attribute, f.text, to_text(*v), why));
-                };
-                if (!v) {  // a constant has a mistake
-                } else if (!std::isfinite(*v))
-                    wrong("which is not a finite number");
-                else if (whole && *v != std::trunc(*v))
-                    wrong("which is not a whole number");
-                else if (*v < f.low || *v > f.high)
-                    wrong(fmt::format("which is not from {} to {}", to_text(f.low), to_text(f.high)));
-                else {
-                    std::visit([&]<class T>(T Struct::*member) { s.*member = static_cast<T>(*v); }, f.member);
-                    f.value = *v, f.fresh = false;
-                }
-            } catch (const FormulaError& e) {
-                diagnostics.error(inside(f.at, e.at),
-                                  fmt::format("{} = '{}': {}", f.attribute, f.text, e.what()), e.hint);
-            }
-            complete = complete && !f.fresh;
-        }
-    };
     Constants before(system, 0);
-    numbers(before, system, nullptr);
+    compute_numbers(before, system, nullptr, diagnostics);
     Constants constants(system);
     constants.check(diagnostics);
-    each_with_formulas(system, [&](auto& s, const Process* process) { numbers(constants, s, process); });
+    bool complete = true;
+    each_with_formulas(system, [&](auto& s, const Process* process) {
+        complete = compute_numbers(constants, s, process, diagnostics) && complete;
+    });
     each_setting(system, [&](Setting& s, const Process* process) {
         s.computed.clear();
         if (!in_braces(s.value)) return;

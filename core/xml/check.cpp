@@ -227,6 +227,8 @@ class Checker {
             out_.error(v.where(), fmt::format("{} = {}", subject.label(), what), std::move(hint));
             return false;
         };
+        if (in_braces(word) && format_.find("Constant"))
+            return wrong(fmt::format("'{}' is a formula, which cannot stand here", word), "write the number");
         const auto number = parse_number<double>(word);
         if (!number && out_of_range(word)) return wrong(no_number(word), subject.description());
         if (!number || (whole && *number != std::trunc(*number)))

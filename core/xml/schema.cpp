@@ -23,6 +23,11 @@ class Schema : Printer {
         for (const auto& root : roots) reference(root);
         close(), close();
         for (const auto& rule : format.elements) define(rule);
+        if (format.find("Constant")) {
+            open("define", {{"name", "formula"}}), open("data", {{"type", "string"}});
+            open("param", {{"name", "pattern"}}), text("\\{.*\\}");
+            close(), close(), close();
+        }
         close();
         return "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n" + result();
     }
@@ -84,8 +89,7 @@ class Schema : Printer {
         if (!rule.formula) return plain(rule);
         open("choice");
         plain(rule);
-        open("data", {{"type", "string"}}), open("param", {{"name", "pattern"}}), text("\\{.*\\}"), close(),
-            close();
+        reference("formula");
         close();
     }
 
@@ -174,7 +178,8 @@ class Schema : Printer {
             value({.kind = p.kind == ParameterKind::boolean   ? ValueKind::boolean
                            : p.kind == ParameterKind::real    ? ValueKind::number
                            : p.kind == ParameterKind::integer ? ValueKind::whole
-                                                              : ValueKind::text});
+                                                              : ValueKind::text,
+                   .formula = p.kind == ParameterKind::real || p.kind == ParameterKind::integer});
             close();
             close();
         }

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "core/engine/simulation.h"
+#include "core/formula/formula.h"
 #include "core/model/edit.h"
 #include "core/model/world_change.h"
 #include "core/observe/condition.h"
@@ -58,7 +59,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
     Diagnostics diagnostics;
     auto& simulation = *small.simulation;
-    switch (data[0] % 8) {
+    switch (data[0] % 9) {
         case 0:
         case 1:
             if (const auto c = observe::parse_condition(simulation.layout(), data[0] & 1, text, "--until",
@@ -97,6 +98,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             model::set(system, small.registry, text, diagnostics);
             break;
         }
+        case 7:
+            try {
+                Formula(text).value([](const std::string& name, std::size_t) { return name.size() > 1 ? 0.5 : 3.0; });
+            } catch (const FormulaError& e) {
+                test::holds(e.at <= text.size(), "a mistake has a place in the text");
+            }
+            break;
         default:
             manipulate(small, Mode::add, text, diagnostics);
     }

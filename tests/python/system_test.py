@@ -90,6 +90,41 @@ def test_parameters():
     assert group.params["threshold"] == default and '"threshold"' not in group.system.to_xml()
 
 
+def test_constants():
+    system = forager()
+    light = system["Bug/Light"]
+    system.constants["gain"] = 2
+    system["Bug"].constants["half"] = "{gain / 2}"
+    light.params["excGain"] = "{half + 0.5}"
+    assert (light.params["excGain"], system.constants["gain"], dict(system["Bug"].constants)) == (1.5, 2.0, {"half": 1.0})
+    system.constants["gain"] = 3
+    assert light.params["excGain"] == 2.0 and '"excGain" value="{half + 0.5}"' in system.to_xml()
+    assert forage.System.parse(system.to_xml()) == system
+    for wrong in ("{1 +", "{other}", "{half}", "much", float("nan")):
+        with pytest.raises(forage.InputError):
+            system.constants["gain"] = wrong
+    with pytest.raises(forage.InputError, match="did you mean 'half'"):
+        light.params["excGain"] = "{hlf}"
+    with pytest.raises(forage.InputError, match="there is no constant 'gain'"):
+        del system.constants["gain"]
+    system.constants["half"], system["Bug"].constants["half"] = 1, 0.25
+    del system["Bug"].constants["half"], system.constants["gain"]
+    assert light.params["excGain"] == 1.5 and list(system.constants) == ["half"]
+
+
+def test_a_constant_changes_a_run():
+    system = forager()
+    system.constants["gain"] = 2
+    system["Bug/Light"].params["excGain"] = "{gain}"
+    with forage.open(system, world=WORLD) as run:
+        assert "gain" in run.params
+        run.run(cycles=2)
+        run.params["gain"] = 0.5
+        assert (run.params["gain"], run.params["Bug/Light.excGain"]) == (0.5, 0.5)
+        with pytest.raises(forage.InputError):
+            run.params["gain"] = "much"
+
+
 def test_edits():
     system = forager()
     light = system["Bug/Light"]

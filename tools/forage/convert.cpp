@@ -90,8 +90,9 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
         }
         if (o.original) {
             model::complete({&file->process, 1}, file->connections);
-            model::System alone{.processes = {std::move(file->process)},
-                                .connections = std::move(file->connections)};
+            model::System alone;
+            alone.processes.push_back(std::move(file->process));
+            alone.connections = std::move(file->connections);
             model::compute(alone, diagnostics);
             model::write_out_formulas(alone);
             file = {std::move(alone.processes.front()), std::move(alone.connections)};

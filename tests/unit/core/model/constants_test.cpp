@@ -167,7 +167,7 @@ TEST_CASE("mistakes in constants and formulas are all reported, and only once") 
     CHECK(mistakes(with("{2 * 3}", "{2 * }")) ==
           "3:41: channels = '{2 * }': something is missing at its end\n");
     CHECK(mistakes(with("value=\"0.125\"", "value=\"0,125\"")) ==
-          "7:34: bias = '0,125': '0,125' is not a number; a formula stands in braces: {2 * x}\n");
+          "7:34: bias = '0,125': '0,125' is not a number; did you mean '0.125'?\n");
     CHECK(mistakes(with("{0.25 + lambda}", "{0.25 + lamda}")) ==
           "9:87: threshold = '{0.25 + lamda}': there is no constant 'lamda'; did you mean 'lambda'?\n");
     CHECK(
@@ -181,7 +181,9 @@ TEST_CASE("mistakes in constants and formulas are all reported, and only once") 
           "6:41: lambda = '{2 * bias}': there is no constant 'bias'; there are 'lambda', '2x', 'ms', "
           "'channels', 'dt'\n"
           "7:21: a constant cannot be called '2x'; letters, digits and _, not first a digit, and no word of "
-          "formulas such as 'if' or 'dt'\n");
+          "formulas such as 'if' or 'dt'\n"
+          "17:73: weight = '{bias}': there is no constant 'bias'; there are 'lambda', '2x', 'ms', "
+          "'channels', 'dt'\n");
     CHECK(mistakes(with("{1000 / ms}", "{1 / dt}")) ==
           "1:46: cylesPerSecond = '{1 / dt}': cylesPerSecond cannot depend on dt, which is 1 / "
           "cylesPerSecond\n");

@@ -93,6 +93,7 @@ TEST_CASE("Every example of the reference is read") {
         {"source", [](const std::string& t) { parse_source(t); }},
         {"condition", [](const std::string& t) { parse_condition(t); }},
         {"quantity", [](const std::string& t) { parse_quantity(t); }},
+        {"formula", [](const std::string& t) { Formula{t}; }},
         {"assignment", [](const std::string& t) { parse_assignment(t); }},
         {"change",
          [](const std::string& t) {
