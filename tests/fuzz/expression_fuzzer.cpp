@@ -100,7 +100,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         case 7:
             try {
-                Formula(text).value([](const std::string& name, std::size_t) { return name.size() > 1 ? 0.5 : 3.0; });
+                Formula(text).value(
+                    [](const std::string& name, std::size_t) { return name.size() > 1 ? 0.5 : 3.0; });
             } catch (const FormulaError& e) {
                 test::holds(e.at <= text.size(), "a mistake has a place in the text");
             }

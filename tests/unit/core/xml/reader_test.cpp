@@ -188,7 +188,8 @@ TEST_CASE("Unknown attributes and elements are warnings when reading leniently, 
           "5:44: <Process> has no attribute 'mood' | there are 'id', 'name', 'hostname', 'port', "
           "'enableModule', 'path', 'color'");
     CHECK(mistake(replaced(small_system, "<Note/>", "<Remark/>"), true) ==
-          "11:5: <Process> cannot hold <Remark> | there are 'Constant', 'Module', 'Note', 'DiagramIcon', 'Group'");
+          "11:5: <Process> cannot hold <Remark> | there are 'Constant', 'Module', 'Note', 'DiagramIcon', "
+          "'Group'");
 }
 
 TEST_CASE("A remark outside a note is not read") {

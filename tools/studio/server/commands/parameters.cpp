@@ -19,7 +19,10 @@ std::string value_in(const std::string& assignment) {
     return assignment.substr(std::min(assignment.find('=') + 1, assignment.size()));
 }
 
-bool acts_at_start(const model::Assignment& a) { return !a.parameter || a.parameter->at_start; }
+bool acts_at_start(const model::Assignment& a) {
+    if (a.owner == model::Assignment::Owner::constant) return false;
+    return !a.parameter || a.parameter->at_start;
+}
 
 /// Throws InputError for the path of a file that no module may read or write.
 void check_file(const model::System& system, const model::Assignment& a) {
