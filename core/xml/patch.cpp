@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/alignment.h"
+#include "core/model/constants.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
 
@@ -298,13 +299,16 @@ std::string patched(const std::string& text, const model::System& before, const 
 Patch patch(const std::string& path, const std::string& text, const model::System& before,
             const model::System& after, bool lenient) {
     Patch out;
+    model::System wanted = after;  // as it will be read
+    Diagnostics found_when_read;
+    model::compute(wanted, found_when_read);
     for (const Extent extent : {Extent::least, Extent::items, Extent::all}) {
         out.extent = extent;
         out.text = patched(text, before, after, extent);
         out.diagnostics = {};
         out.diagnostics.lenient = lenient;
         out.system = parse_system(path, out.text, out.diagnostics);
-        if (out.system && same_content(*out.system, after)) break;
+        if (out.system && same_content(*out.system, wanted)) break;
     }
     return out;
 }

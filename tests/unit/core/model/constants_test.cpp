@@ -160,6 +160,12 @@ TEST_CASE("a file keeps its formulas when it is written, and when it is edited")
     theirs.processes[0].groups[1].name = "Other";
     const auto merged = merge(s, edited, theirs).system;
     CHECK(cells(merged, 1) == 9);
+
+    edited = s;
+    set_parameter(edited, "c", "weight", "{lambda^2}");
+    const auto patch = xml::patch("s.iqr", file_with_constants, s, edited);
+    CHECK(patch.text == with("{-lambda}", "{lambda^2}"));
+    CHECK(patch.extent == xml::Extent::least);
 }
 
 TEST_CASE("mistakes in constants and formulas are all reported, and only once") {
