@@ -1,6 +1,7 @@
 #include "neurons/neurons.h"
 
 #include "neurons/integrate_fire.h"
+#include "neurons/leaky_integrator.h"
 #include "neurons/linear_threshold.h"
 #include "neurons/numeric.h"
 #include "neurons/pyramid_apical_shunt.h"
@@ -13,6 +14,7 @@ namespace forage {
 
 void add_neurons(Registry& registry) {
     registry.add(neuron_type<IntegrateFire>());
+    registry.add(neuron_type<LeakyIntegrator>());
     registry.add(neuron_type<LinearThreshold>());
     registry.add(neuron_type<Numeric>());
     registry.add(neuron_type<PyramidApicalShunt>());

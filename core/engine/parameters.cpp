@@ -53,17 +53,21 @@ std::optional<Refusal> refusal(const Layout& layout, const Assignment& a) {
 template <class Instance>
 class Copies {
   public:
+    explicit Copies(const Layout& layout) : layout_(layout) {}
     template <class Type>
     Instance& of(int number, const Type& type, Instance& original) {
         auto& copy = copies_[number];
         if (!copy) {
             copy = type.make();
             for (const auto& p : type.parameters) p.set(copy->parameters(), p.get(original.parameters()));
+            if constexpr (requires { type.set_dt; })
+                if (type.set_dt) type.set_dt(copy->parameters(), layout_.seconds_per_cycle);
         }
         return *copy;
     }
 
   private:
+    const Layout& layout_;
     std::map<int, std::unique_ptr<Instance>> copies_;
 };
 
@@ -118,9 +122,9 @@ std::vector<Assignment> expanded(LiveConstants constants, const Layout& layout,
 
 void check_changes(const Plan& plan, const State& state, std::span<const Assignment> changes,
                    Diagnostics& diagnostics) {
-    Copies<NeuronInstance> neurons;
-    Copies<SynapseInstance> synapses;
-    Copies<ModuleInstance> modules;
+    Copies<NeuronInstance> neurons(plan.layout);
+    Copies<SynapseInstance> synapses(plan.layout);
+    Copies<ModuleInstance> modules(plan.layout);
     const auto pass_on = [&](const Assignment& a, const Diagnostics& found) {
         for (Diagnostic d : found.all()) {
             d.where = a.at;

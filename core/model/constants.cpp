@@ -181,9 +181,9 @@ double Constants::evaluate(std::string_view text, const Process* process) {
             if (name != "dt")
                 throw FormulaError(at, fmt::format("there is no constant '{}'", name),
                                    suggest(name, names_in(system_, process)));
-            if (rate_ == 0)
+            if (!dt_)
                 throw FormulaError(at, "cylesPerSecond cannot depend on dt, which is 1 / cylesPerSecond");
-            return 1 / rate_;
+            return *dt_;
         });
     } catch (const FormulaError& e) {
         throw FormulaError(e.at + 1, e.what(), e.hint);
@@ -248,7 +248,7 @@ void Constants::check(const std::vector<Constant>& all, const Process* process, 
 }
 
 bool compute(System& system, Diagnostics& diagnostics) {
-    Constants before(system, 0);
+    Constants before(system, std::nullopt);
     compute_numbers(before, system, nullptr, diagnostics);
     Constants constants(system);
     constants.check(diagnostics);

@@ -18,10 +18,9 @@ namespace forage::model {
 /// invalid after an edit.
 class Constants {
   public:
-    explicit Constants(const System& system)
-        : Constants(system, system.cycles_per_second > 0 ? system.cycles_per_second : 25) {}
-    /// `rate` are the cycles per second, of which `dt` is made; 0: it cannot be used.
-    Constants(const System& system, double rate) : system_(system), rate_(rate) {}
+    explicit Constants(const System& system) : Constants(system, seconds_per_cycle(system)) {}
+    /// `dt` is the time of a cycle, s; without one, formulas cannot use it.
+    Constants(const System& system, std::optional<double> dt) : system_(system), dt_(dt) {}
 
     /// The value of a text that is a number, or a formula in braces of the constants that hold in a process
     /// (in the system as a whole when `process` is null): its own, then those of the system, and `dt`, the
@@ -46,7 +45,7 @@ class Constants {
     void check(const std::vector<Constant>& all, const Process* process, Diagnostics& diagnostics);
 
     const System& system_;
-    double rate_;
+    std::optional<double> dt_;
     std::map<const Constant*, std::optional<double>> known_;
     std::vector<const Constant*> open_;     ///< those that are being computed, to find circles
     std::set<const Constant*> in_circles_;  ///< those that check() has reported

@@ -189,6 +189,11 @@ struct System {
     friend bool operator==(const System&, const System&) = default;
 };
 
+/// The time of a cycle, s. A system that runs as fast as possible has cycles of 1/25 s.
+inline double seconds_per_cycle(const System& s) {
+    return 1 / (s.cycles_per_second > 0 ? s.cycles_per_second : 25);
+}
+
 /// The content of an .iqrProcess file: a process with the connections among its groups.
 struct ProcessFile {
     Process process;

@@ -163,6 +163,7 @@ class Validator {
                                                  describe(p->kind), to_text(p->default_value)));
                 continue;
             }
+            if (p->is_time_constant) check_time_constant(s, *p, std::get<double>(*value));
             if (s.value_at.file &&
                 outside(*value, p->range))  // values without a file were checked when they were set
                 note_unusual(s, *p);
@@ -182,6 +183,19 @@ class Validator {
                        e.hint);
         }
         return false;
+    }
+
+    void check_time_constant(const Setting& s, const Parameter& p, double tau) {
+        const double dt = seconds_per_cycle(system_);
+        if (!(tau > 0))
+            out_.error(s.value_at, fmt::format("{} = {} is not possible", p.name, s.in_force(p.kind)),
+                       fmt::format("{} ({}) is a time constant: more than 0 s", p.name, phrase(p.doc)));
+        else if (tau < 2 * dt)
+            out_.warning(
+                s.value_at,
+                fmt::format("{} = {} s is less than two cycles of {} s, so the cell cannot follow it", p.name,
+                            to_text(tau), to_text(dt)),
+                fmt::format("set cylesPerSecond to at least {:.6g}", std::ceil(2 / tau)));
     }
 
     /// Collects values outside of the usual range: a system may have hundreds of them.
@@ -210,6 +224,7 @@ class Validator {
         try {
             const auto object = type.make();
             apply(use.settings, type.parameters, object->parameters());
+            if (type.set_dt) type.set_dt(object->parameters(), seconds_per_cycle(system_));
             type.check(object->parameters(), found);
         } catch (...) {
             return out_.error(use.at, fmt::format("{} failed to check its parameters: {}", type.name,

@@ -77,7 +77,7 @@ Json written(const Parameter& p) {
                 {"kind", std::string(kind_names[static_cast<std::size_t>(p.kind)])}};
     std::visit([&](const auto& value) { out["default"] = value; }, p.default_value);
     if (p.range) out["range"] = {p.range->low, p.range->high};
-    out["path"] = p.is_path, out["at_start"] = p.at_start;
+    out["path"] = p.is_path, out["at_start"] = p.at_start, out["time_constant"] = p.is_time_constant;
     return out;
 }
 
@@ -114,6 +114,7 @@ Parameter read_parameter(const Json& json) {
     if (json.contains("range"))
         p.range = ParameterRange{json["range"].at(0).get<double>(), json["range"].at(1).get<double>()};
     json.at("path").get_to(p.is_path), json.at("at_start").get_to(p.at_start);
+    json.at("time_constant").get_to(p.is_time_constant);
     return p;
 }
 

@@ -20,11 +20,6 @@
 namespace forage {
 namespace {
 
-/// Cycles per second of a system; 25 for a system that runs as fast as possible.
-double cycles_per_second(const model::System& system) {
-    return system.cycles_per_second > 0 ? system.cycles_per_second : 25;
-}
-
 std::string describe(const engine::NotFinite& what, const engine::Layout& layout) {
     const auto& group = layout.groups[static_cast<std::size_t>(what.group)];
     const auto cell =
@@ -91,7 +86,8 @@ Run::Run(model::System system, Registry registry, std::unique_ptr<Environment> e
       environment_(std::move(environment)),
       layout_(std::move(layout)),
       options_(options),
-      seconds_per_cycle_(environment_ ? environment_->seconds_per_cycle() : 1 / cycles_per_second(system_)) {
+      seconds_per_cycle_(environment_ ? environment_->seconds_per_cycle()
+                                      : model::seconds_per_cycle(system_)) {
     if (options.compute_everything) demand_ = engine::Demand::everything();
     module_files_ = &add(std::make_unique<ModuleFiles>(options.directory));
 }

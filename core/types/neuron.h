@@ -49,6 +49,7 @@ struct NeuronType {
     bool elementwise = false;  ///< whether cells do not see each other; threads may share such an update
     std::function<std::unique_ptr<NeuronInstance>()> make;
     std::function<void(const void*, Diagnostics&)> check;  ///< checks an object's parameters; may be empty
+    std::function<void(void*, double)> set_dt;  ///< tells an object the seconds per cycle; may be empty
 
     int output() const {  ///< index of the output state
         for (int i = 0; i < static_cast<int>(states.size()); ++i)
@@ -90,6 +91,12 @@ class NeuronSpec {
     ParameterBuilder param(std::string name, Path... path) {
         type_.parameters.push_back(detail::make_parameter<T>(std::move(name), path...));
         return {type_.parameters, type_.parameters.size() - 1};
+    }
+
+    /// Names the member that has the seconds per cycle when check() and update() are called.
+    NeuronSpec& dt(double T::*member) {
+        type_.set_dt = [member](void* object, double seconds) { static_cast<T*>(object)->*member = seconds; };
+        return *this;
     }
 
     /// Declares a state of a type with a Cell. The initial value is that of `member`. update() receives the

@@ -34,7 +34,8 @@ struct Parameter {
     ParameterKind kind;
     ParameterValue default_value;
     std::optional<ParameterRange> range;
-    bool is_path = false;   ///< whether it names a file, relative to the file that sets the parameter
+    bool is_path = false;           ///< whether it names a file, relative to the file that sets the parameter
+    bool is_time_constant = false;  ///< whether a process decays with it, so that cycles must be shorter
     bool at_start = false;  ///< whether it is read only when the run starts, instead of in each update
     std::function<void(void*, const ParameterValue&)> set;
     std::function<ParameterValue(const void*)> get;
@@ -67,6 +68,8 @@ class ParameterBuilder {
     ParameterBuilder& unit(std::string text) { return all_[index_].unit = std::move(text), *this; }
     ParameterBuilder& path() { return all_[index_].is_path = true, *this; }
     ParameterBuilder& at_start() { return all_[index_].at_start = true, *this; }
+    /// A time constant in s: one of less than two cycles gives a warning.
+    ParameterBuilder& time_constant() { return all_[index_].is_time_constant = true, unit("s"); }
     ParameterBuilder& range(double low, double high) {
         return all_[index_].range = ParameterRange{low, high}, *this;
     }

@@ -57,6 +57,7 @@ struct SynapseType {
     bool event_driven = false;  ///< see SynapseSpec
     std::function<std::unique_ptr<SynapseInstance>()> make;
     std::function<void(const void*, Diagnostics&)> check;  ///< of an object's parameters; may be empty
+    std::function<void(void*, double)> set_dt;  ///< tells an object the seconds per cycle; may be empty
 
     int output() const {
         for (int i = 0; i < static_cast<int>(states.size()); ++i)
@@ -81,6 +82,11 @@ class SynapseSpec {
     ParameterBuilder param(std::string name, Path... path) {
         type_.parameters.push_back(detail::make_parameter<T>(std::move(name), path...));
         return {type_.parameters, type_.parameters.size() - 1};
+    }
+    /// Names the member that has the seconds per cycle when check() and update() are called.
+    SynapseSpec& dt(double T::*member) {
+        type_.set_dt = [member](void* object, double seconds) { static_cast<T*>(object)->*member = seconds; };
+        return *this;
     }
     /// Declares a member of Synapse as a state; the member has the state's initial value.
     SynapseSpec& state(std::string name, double Synapse::*member, std::string label) {

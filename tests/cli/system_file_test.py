@@ -30,6 +30,7 @@ EQUATIONS = re.compile(r"<!-- equations: (\w+) -->\n```python\n(.*?)```\n", re.D
 MEMBRANE = {"excGain": 1.3, "inhGain": 0.8, "vmPrs": 0.7, "clipVm": True, "vmMin": 0.0, "vmMax": 0.9}
 SETTINGS = {
     "neuronIntegrateFire": {**MEMBRANE, "threshold": 0.5, "spkAmpl": 0.8, "vmReset": 0.3},
+    "neuronLeakyIntegrator": {"tau": 0.2, "modGain": 0.5, "threshold": 0.05, "slope": 1.5, "ceiling": 0.4},
     "neuronLinearThreshold": {**MEMBRANE, "threshold": 0.4},
     "neuronNumeric": {},
     "neuronPyramidApicalShunt": {"vmPrs": 0.5, "threshold": 0.6, "vmReset": 0.4},
@@ -160,7 +161,7 @@ class Reference(unittest.TestCase):
             records = {s: recorded(f"P/X:{s}") for s in states}
             arriving = {i: recorded(f"P/{g}:act") for i, (g, _, _) in used.items()}
             for cell in range(4):
-                names = {"tanh": math.tanh, **SETTINGS[name], **dict.fromkeys(states, 0)}
+                names = {"tanh": math.tanh, "dt": 0.04, **SETTINGS[name], **dict.fromkeys(states, 0)}
                 for cycle in range(40):
                     names.update({i: rows[cycle - 1][cell] if cycle else 0 for i, rows in arriving.items()})
                     exec(text, names)

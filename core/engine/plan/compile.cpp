@@ -87,6 +87,8 @@ class Compiler {
         try {
             auto out = type.make();
             model::apply(use.settings, type.parameters, out->parameters());
+            if constexpr (requires { type.set_dt; })
+                if (type.set_dt) type.set_dt(out->parameters(), layout_.seconds_per_cycle);
             return out;
         } catch (const std::bad_alloc&) {
             throw;

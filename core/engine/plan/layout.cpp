@@ -42,6 +42,7 @@ std::optional<Layout> make_layout(const model::System& system, const Registry& r
 
     const UpdateOrder order(system);
     Layout out;
+    out.seconds_per_cycle = model::seconds_per_cycle(system);
     std::map<std::string, std::string> path_of;  // by id
     const auto paths = model::group_paths(system);
     for (std::size_t n = 0; const auto& p : system.processes)

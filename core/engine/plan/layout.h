@@ -38,6 +38,7 @@ struct Layout {
     std::vector<Group> groups;
     std::vector<Module> modules;
     std::vector<Connection> connections;
+    double seconds_per_cycle = 0.04;
 };
 
 /// Makes the layout of a system. Reports what model::validate() finds, and returns nothing when that has

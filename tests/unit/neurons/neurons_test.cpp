@@ -42,10 +42,15 @@ struct Cells {
 TEST_CASE("A NaN passes through a graded neuron, and does not make a spiking neuron spike") {
     Registry registry;
     add_neurons(registry);
-    const std::map<std::string, bool> passes{
-        {"neuronLinearThreshold", true}, {"neuronSigmoid", true},        {"neuronTanH", true},
-        {"neuronNumeric", true},         {"neuronIntegrateFire", false}, {"neuronPyramidApicalShunt", false},
-        {"neuronTDValue", false},        {"neuronRandomSpike", false}};
+    const std::map<std::string, bool> passes{{"neuronLinearThreshold", true},
+                                             {"neuronSigmoid", true},
+                                             {"neuronTanH", true},
+                                             {"neuronNumeric", true},
+                                             {"neuronLeakyIntegrator", true},
+                                             {"neuronIntegrateFire", false},
+                                             {"neuronPyramidApicalShunt", false},
+                                             {"neuronTDValue", false},
+                                             {"neuronRandomSpike", false}};
     REQUIRE(passes.size() == registry.neurons().size());
     for (const auto& [name, type] : registry.neurons()) {
         INFO(name);
