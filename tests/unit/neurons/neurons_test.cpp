@@ -138,3 +138,28 @@ TEST_CASE("Parameters with an unexpected meaning give warnings") {
     model::set_parameter(*clipped, "clipVm", "true");
     CHECK(warnings() == 2);
 }
+
+TEST_CASE("A time constant is checked against the time of a cycle, which the type is told") {
+    Registry registry;
+    add_neurons(registry);
+    model::System system;
+    model::add_group(system, model::add_process(system, "P"), "A", 1, 1, "neuronLeakyIntegrator");
+    auto& neuron = system.processes[0].groups[0].neuron;
+    const auto found = [&](const std::string& tau) {
+        model::set_parameter(neuron, "tau", tau);
+        Diagnostics diagnostics;
+        model::validate(system, registry, diagnostics);
+        return diagnostics.all().empty() ? ""
+                                         : diagnostics.all()[0].message + "; " + diagnostics.all()[0].hint;
+    };
+    CHECK(found("0.08").empty());
+    CHECK(
+        found("0.05") ==
+        "tau = 0.05 s is less than two cycles of 0.04 s, so the cell cannot follow it; set cylesPerSecond to "
+        "at least 40");
+    CHECK(found("0") ==
+          "tau = 0 is not possible; tau (Time in which a covers 63 % of a step) is a time constant: more "
+          "than 0 s");
+    system.cycles_per_second = 1000;
+    CHECK(found("0.002").empty());
+}
