@@ -50,9 +50,11 @@ class Scanner {
     }
 
     bool fail(std::size_t offset, std::string message, std::string hint = {}) {
-        if (document_)
-            diagnostics_->error(document_->place(text_.data() + std::min(offset, text_.size())),
-                                std::move(message), std::move(hint));
+        if (!document_) return false;
+        Location where = document_->place(text_.data() + std::min(offset, text_.size()));
+        // No excerpt of a file of another kind: it may be private, and a model from elsewhere may name it.
+        if (!looks_like_xml()) where.file = std::make_shared<SourceFile>(SourceFile{where.file->path, {}});
+        diagnostics_->error(std::move(where), std::move(message), std::move(hint));
         return false;
     }
     bool fail_whole(std::string message, std::string hint) {
