@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstdlib>
 #include <span>
 #include <sstream>
@@ -28,6 +29,34 @@ std::string lower(std::string_view text) {
 
 constexpr const char* what_to_write = "<sdf version=\"1.4\">model.sdf</sdf>";
 
+/// Whether a path from a folder can lead out of it.
+bool leads_out(const fs::path& path) {
+    return path.is_absolute() || std::ranges::find(path, "..") != path.end();
+}
+
+/// Whether a path, with all links followed, is in a folder.
+bool is_inside(const fs::path& folder, const fs::path& path) {
+    std::error_code ignored;
+    const auto root = fs::weakly_canonical(folder, ignored), file = fs::weakly_canonical(path, ignored);
+    return !root.empty() &&
+           std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end();
+}
+
+/// A text with "%20" and the like replaced by the characters that they stand for.
+std::string without_escapes(std::string_view text) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        unsigned byte = 0;
+        const auto* digits = text.data() + i + 1;
+        if (text[i] == '%' && i + 2 < text.size() &&
+            std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2 && byte > 0)
+            out += static_cast<char>(byte), i += 2;
+        else
+            out += text[i];
+    }
+    return out;
+}
+
 /// The <sdf> element with the newest version; false when there is none. Elements without a version count as
 /// the oldest.
 xml::Element newest(const xml::Element& model) {
@@ -44,7 +73,7 @@ xml::Element newest(const xml::Element& model) {
 }  // namespace
 
 ModelFolders::ModelFolders(const std::string& world_file, const std::vector<std::string>& extra)
-    : folders_(extra) {
+    : world_(world_file), folders_(extra) {
     const fs::path beside = fs::path(world_file).parent_path();
     for (const char* folder : {"models", "../models", "../../models"})
         folders_.push_back((beside / folder).string());
@@ -56,12 +85,21 @@ ModelFolders::ModelFolders(const std::string& world_file, const std::vector<std:
     }
 }
 
-std::string ModelFolders::find(const std::string& uri) const {
-    std::error_code ignored;
-    if (!uri.starts_with(scheme)) return fs::exists(uri, ignored) ? uri : std::string();
-    for (const auto& folder : folders_) {
-        const fs::path candidate = fs::path(folder) / uri.substr(scheme.size());
-        if (fs::exists(candidate, ignored)) return candidate.string();
+std::string ModelFolders::find(const std::string& uri, const std::string& from) const {
+    const bool is_model = uri.starts_with(scheme);
+    std::string path = uri;
+    for (const std::string_view prefix : {scheme, std::string_view("file://"), std::string_view("file:")})
+        if (uri.starts_with(prefix)) {
+            path.erase(0, prefix.size());
+            break;
+        }
+    std::vector<std::string> folders = folders_;
+    if (!is_model) folders.insert(folders.begin(), fs::path(from.empty() ? world_ : from).parent_path());
+    for (const auto& name : {path, without_escapes(path)}) {
+        if (name.empty() || (is_model && leads_out(name))) continue;
+        for (const auto& folder : folders)
+            if (std::error_code ignored; fs::exists(fs::path(folder) / name, ignored))
+                return (fs::path(folder) / name).lexically_normal().string();
     }
     return {};
 }
@@ -123,13 +161,15 @@ std::optional<std::string> file_of_model(const fs::path& folder, const Location&
                           "this does not say which file holds the model", what_to_write);
         return {};
     }
-    const fs::path file = folder / sdf.value().view;
-    if (!fs::is_regular_file(file)) {
-        diagnostics.error(sdf.value().where(), fmt::format("there is no file '{}'", file.string()),
-                          what_to_write);
-        return {};
-    }
-    return file.string();
+    const fs::path file = folder / sdf.value().text();
+    const bool outside = !is_inside(folder, file);
+    if (std::error_code ignored; !outside && fs::is_regular_file(file, ignored)) return file.string();
+    diagnostics.error(sdf.value().where(),
+                      outside
+                          ? fmt::format("the file '{}' is not in the folder of its model", sdf.value().text())
+                          : fmt::format("there is no file '{}'", file.string()),
+                      what_to_write);
+    return {};
 }
 
 std::optional<std::string> read_text(const std::string& path) {

@@ -18,21 +18,24 @@ class ModelFolders {
   public:
     ModelFolders(const std::string& world_file, const std::vector<std::string>& extra);
 
-    /// The path that `uri` stands for (`model://NAME`, `model://NAME/FOLDER`, or a path); empty when nothing
-    /// exists there.
-    std::string find(const std::string& uri) const;
+    /// The path that `uri` stands for; empty when nothing exists there. `model://NAME` and
+    /// `model://NAME/FOLDER` are looked up in the folders, without leaving them. Another path, also with
+    /// `file:`, is relative to the file `from` in which it stands (the world if it is empty), then to the
+    /// folders. "%20" may stand for a blank.
+    std::string find(const std::string& uri, const std::string& from = {}) const;
     /// The names of all models, sorted.
     std::vector<std::string> names() const;
     /// A hint: what to write instead of `uri`, for which find() has found nothing. `names` must not be empty.
     static std::string hint(std::string_view uri, const std::vector<std::string>& names);
 
   private:
+    std::string world_;
     std::vector<std::string> folders_;
 };
 
 /// The path of the file with the newest version of SDF that model.config in `folder` names (or manifest.xml,
-/// its older name). When there is none, reports an error at `where`, the location that includes the model,
-/// and returns nothing.
+/// its older name). When there is none, or when it is outside of the folder, reports an error, and returns
+/// nothing. `where` is the location that includes the model.
 std::optional<std::string> file_of_model(const std::filesystem::path& folder, const Location& where,
                                          Diagnostics& diagnostics);
 
