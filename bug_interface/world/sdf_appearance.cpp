@@ -1,4 +1,6 @@
 // Shapes and materials.
+#include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include <fmt/format.h>
@@ -13,8 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string texture_of(SdfSource& in, const xml::Element& script, const std::string& uri,
-                       const std::string& name) {
-    const std::string folder = in.folders.find(uri);
+                       const std::string& folder, const std::string& name) {
     if (folder.empty()) {
         in.diagnostics.error(script.where(), fmt::format("there is no folder '{}'", uri),
                              "it holds the .material script and its texture");
@@ -64,6 +65,12 @@ void check_size(SdfSource& in, const Shape& shape, const Location& where) {
 
 }  // namespace
 
+bool is_simple_shape(const xml::Element& parent) {
+    constexpr std::array known = {"box", "cylinder", "sphere", "plane"};
+    return std::ranges::any_of(
+        known, [&](const char* shape) { return bool(parent.child("geometry").child(shape)); });
+}
+
 Shape read_shape(SdfSource& in, const xml::Element& parent) {
     Shape shape;
     const xml::Element geometry = parent.child("geometry");
@@ -89,12 +96,14 @@ Material read_material(SdfSource& in, const xml::Element& visual) {
     if (!e) return material;
     if (const xml::Element script = e.child("script")) {
         const std::string name = script.value("name").text();
-        std::string uri;
+        std::string uri, folder;
         for (const xml::Element& u : script.children("uri"))
-            if (const xml::Value v = u.value(); v.view.starts_with("model://")) uri = v.text();
+            if (const auto text = u.value().text(), found = in.found(u);
+                text.starts_with("model://") || fs::is_directory(found))
+                uri = text, folder = found;
         if (!uri.empty()) {
             material.ambient = material.diffuse = Colour::Ones();
-            material.texture = texture_of(in, script, uri, name);
+            material.texture = texture_of(in, script, uri, folder, name);
         } else if (const auto known = named_material(name)) {
             material = *known;
         } else {

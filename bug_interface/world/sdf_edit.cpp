@@ -154,6 +154,7 @@ std::string removed_from_world(const std::string& text, std::string_view id, Mod
     if (e.form == Entry::Form::world) throw std::invalid_argument("the world itself cannot be removed");
     xml::TextEdits edits;
     edits.cut(text, e.element->whole);
+    if (e.state) edits.cut(text, e.state->whole);
     return edits.applied(text);
 }
 
@@ -169,7 +170,7 @@ std::string moved_in_world(const std::string& text, std::string_view id, double 
     } else {
         auto pose = e.pose(text);
         pose.x = x, pose.y = y, pose.yaw = yaw.value_or(pose.yaw);
-        set_pose(edits, text, here.tree.layout, *e.element, pose);
+        write_pose(edits, text, here.tree, e, pose);
     }
     return edits.applied(text);
 }

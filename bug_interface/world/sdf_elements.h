@@ -5,6 +5,8 @@
 
 namespace forage::bug {
 
+/// Whether the <geometry> in `parent` is one that read_shape() reads.
+bool is_simple_shape(const xml::Element& parent);
 /// Reads the <geometry> in `parent`.
 Shape read_shape(SdfSource& in, const xml::Element& parent);
 /// Reads the <material> in `visual`, with its texture.

@@ -73,7 +73,7 @@ PoseText Entry::pose(std::string_view text) const {
         const auto v = numbers_in(text, element);
         return v.size() < 2 ? PoseText() : PoseText{v[0], v[1]};
     }
-    if (child(*element, "pose") || !body.element) return pose_of(text, *element);
+    if (state || child(*element, "pose") || !body.element) return pose_of(text, placed_by());
     return pose_of(body.text, *body.element);
 }
 
@@ -96,6 +96,12 @@ std::vector<Entry> entries_of(std::string_view text, const WorldTree& tree, Mode
         for (const auto& site : e.children)
             if (site.name == "site") add(Entry::Form::site, site, "site", fmt::format("Site {}", ++n));
     }
+    if (const auto* state = child(*tree.world, "state"))
+        for (const auto& e : state->children)
+            if (e.name == "model" && child(e, "pose"))
+                if (const auto it = std::ranges::find(out, decoded(e.value("name")), &Entry::name);
+                    it != out.end() && it->is_model())
+                    it->state = &e;
     std::set<std::string> taken;
     for (auto& e : out) {
         e.id = e.name;
@@ -112,8 +118,9 @@ std::vector<Form> forms_of(const ItemElement& body, std::string_view owner) {
         const auto at = pose_of(body.text, link);
         for (const auto& e : link.children) {
             const auto* geometry = e.name == owner ? child(e, "geometry") : nullptr;
-            if (!geometry || geometry->children.empty() || geometry->children.front().name == "plane")
-                continue;
+            if (!geometry || geometry->children.empty()) continue;
+            const auto shape = geometry->children.front().name;
+            if (shape != "box" && shape != "cylinder" && shape != "sphere") continue;
             auto pose = pose_of(body.text, e);
             const double c = std::cos(at.yaw), s = std::sin(at.yaw);
             pose = {at.x + c * pose.x - s * pose.y,

@@ -27,14 +27,17 @@ struct Entry {
     std::string name;
     std::string kind;  ///< see WorldItem::kind
     const xml::SourceElement* element = nullptr;
-    ItemElement body = {};  ///< of a model or light
+    ItemElement body = {};                      ///< of a model or light
+    const xml::SourceElement* state = nullptr;  ///< the <model> in <state> whose <pose> counts, or null
 
     /// Whether it stands at a place of the floor.
     bool placed() const {
         return form == Form::include ? kind != "sun" : form == Form::model || form == Form::site;
     }
     bool is_model() const { return form == Form::include || form == Form::model; }
-    /// The pose in the world: its own, or that of the included model's file.
+    /// The element whose <pose> says where it stands.
+    const xml::SourceElement& placed_by() const { return state ? *state : *element; }
+    /// The pose in the world: that in <state>, its own, or that of the included model's file.
     PoseText pose(std::string_view text) const;
 };
 

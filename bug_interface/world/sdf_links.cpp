@@ -20,8 +20,9 @@ Link read_link(SdfSource& in, const xml::Element& e) {
         link.collisions.push_back({c.where(), c["name"].text(), in.pose_of(c), read_shape(in, c),
                                    c.value("surface/friction/ode/mu").number(1)});
     for (const xml::Element& v : e.children("visual"))
-        link.visuals.push_back(
-            {v.where(), v["name"].text(), in.pose_of(v), read_shape(in, v), read_material(in, v)});
+        if (is_simple_shape(v))  // the check of the file warns of others
+            link.visuals.push_back(
+                {v.where(), v["name"].text(), in.pose_of(v), read_shape(in, v), read_material(in, v)});
     for (const xml::Element& s : e.children("sensor")) read_sensor(in, s, link);
     return link;
 }
@@ -71,13 +72,15 @@ void check_joints(SdfSource& in, const Model& model) {
         for (const Model& inner : m.models) again(inner, again);
     };
     collect(model, collect);
-    for (const Hinge& hinge : model.hinges)
+    for (const Hinge& hinge : model.hinges) {
+        if (hinge.where.file != model.where.file) continue;  // merged, and checked with its own file
         for (const std::string& name : {hinge.parent, hinge.child})
             if (std::ranges::find(links, name.substr(name.rfind(':') + 1)) == links.end())
                 in.diagnostics.error(
                     hinge.where,
                     fmt::format("joint '{}' does not name a link of its model: '{}'", hinge.name, name),
                     suggest(name, links));
+    }
 }
 
 }  // namespace forage::bug

@@ -211,6 +211,8 @@ void write_site(xml::TextEdits& edits, std::string_view text, const Entry& e, st
 void write_name(xml::TextEdits& edits, std::string_view text, const WorldTree& tree, const Entry& e,
                 const std::string& name) {
     const auto value = xml::encoded(name);
+    if (const auto* a = e.state ? e.state->attribute("name") : nullptr)
+        edits.replace(a->whole, fmt::format("name=\"{}\"", value));
     if (e.form != Entry::Form::include) {
         // With its quotes: the name may hold those that the author has.
         if (const auto* a = e.element->attribute("name"))
@@ -289,6 +291,14 @@ bool is_own(const Entry& e, std::string_view property) {
     return std::ranges::find(own, property) != std::end(own);
 }
 
+void write_pose(xml::TextEdits& edits, std::string_view text, const WorldTree& tree, const Entry& e,
+                const PoseText& pose) {
+    set_pose(edits, text, tree.layout, e.placed_by(), pose);
+    if (!e.state) return;
+    for (const auto& part : e.state->children)  // their poses are those in the world before
+        if (part.name == "link" || part.name == "model") edits.cut(text, part.whole);
+}
+
 void write_property(xml::TextEdits& edits, std::string_view text, const WorldTree& tree, const Entry& e,
                     const ItemProperty& p, const std::string& value) {
     const double v = parse_number<double>(value).value_or(0);
@@ -323,7 +333,7 @@ void write_property(xml::TextEdits& edits, std::string_view text, const WorldTre
     if (name == "y") pose.y = v;
     if (name == "z") pose.z = v;
     if (name == "heading") pose.yaw = v * degree;
-    set_pose(edits, text, tree.layout, *e.element, pose);
+    write_pose(edits, text, tree, e, pose);
 }
 
 }  // namespace forage::bug

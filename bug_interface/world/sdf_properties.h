@@ -16,6 +16,9 @@ std::vector<ItemProperty> properties_of(std::string_view text, const Entry& entr
 /// model, which may be another file's.
 bool is_own(const Entry& entry, std::string_view property);
 
+/// Writes where an entry of the world stands.
+void write_pose(xml::TextEdits& edits, std::string_view text, const WorldTree& tree, const Entry& entry,
+                const PoseText& pose);
 /// Writes a property of an entry whose element stands in the world's text. The value fits the property.
 void write_property(xml::TextEdits& edits, std::string_view text, const WorldTree& tree, const Entry& entry,
                     const ItemProperty& property, const std::string& value);

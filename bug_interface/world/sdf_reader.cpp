@@ -1,6 +1,9 @@
 #include "bug_interface/world/sdf_reader.h"
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
@@ -30,6 +33,11 @@ class Reader {
                                "a world file is <sdf><world name=\"..\">..</world></sdf>");
             return {};
         }
+        for (const xml::Element& outside : root.children())
+            if (outside.name() == "model" || outside.name() == "light")
+                diagnostics_.warning(
+                    outside.where(),
+                    fmt::format("this <{}> is not in <world>: it has no effect", outside.name()));
         WorldDescription world = read_world_element(world_element);
         if (diagnostics_.errors() > errors_before) return {};
         return world;
@@ -48,8 +56,10 @@ class Reader {
     /// The content that an <include> stands for. A file that is included many times is read once, and its
     /// mistakes are reported once.
     Content included(const xml::Element& include) {
-        const std::string file = model_file(include);
-        if (file.empty()) return {};
+        const std::string path = model_file(include);
+        if (path.empty()) return {};
+        std::error_code ignored;
+        const std::string file = fs::weakly_canonical(path, ignored).string();  // the same for all ways to it
         if (const auto known = contents_.find(file); known != contents_.end()) {
             if (open_.contains(file))
                 diagnostics_.error(include.where(),
@@ -59,7 +69,7 @@ class Reader {
         }
         contents_[file];
         open_.insert(file);
-        const Content content = read_model_file(file, include);
+        const Content content = read_model_file(path, include);
         open_.erase(file);
         return contents_[file] = content;
     }
@@ -94,10 +104,8 @@ class Reader {
             diagnostics_.error(where, "<uri> is empty", "write <uri>model://NAME</uri>");
             return {};
         }
-        const std::string found = in_.folders.find(uri);
-        // A bare name that is a folder in this working directory may not be one elsewhere.
-        const bool bare = uri.find('/') == std::string::npos;
-        if (found.empty() || (bare && fs::is_directory(found))) {
+        const std::string found = in_.found(element);
+        if (found.empty()) {
             const auto known = in_.folders.names();
             if (!known.empty()) {
                 diagnostics_.error(where, fmt::format("there is no model '{}'", uri),
@@ -156,8 +164,13 @@ class Reader {
         model.where = e.where(), model.name = e["name"].text(), model.pose = in_.pose_of(e);
         model.is_static = e.value("static").flag(false);
         for (const xml::Element& l : e.children("link")) model.links.push_back(read_link(in_, l));
-        each_model(e, model.models, [](const xml::Element&) {});
+        each_model(e, model.models, &model, [&](const xml::Element&, const xml::Element& include) {
+            diagnostics_.warning(include.where(), "a light in a model has no effect",
+                                 "include it directly in <world>");
+        });
+        if (!model.is_static) warn_of_twins(model.links, "link");
         for (const xml::Element& j : e.children("joint")) read_joint(in_, j, model);
+        warn_of_twins(model.hinges, "joint");
         check_joints(in_, model);
         read_plugins(e, model);
         return model;
@@ -168,17 +181,136 @@ class Reader {
             model.plugins.push_back({p.where(), p["name"].text(), p["filename"].text()});
     }
 
-    /// Reads the models and includes in `parent`, in file order. Calls visit_light(element) for an included
-    /// light.
+    void warn_of_twin(const Location& where, std::string_view what, std::string_view name) {
+        diagnostics_.warning(where, fmt::format("two {}s are called '{}'", what, name),
+                             "give each a name of its own: the name stands for the first one");
+    }
+    template <class Things>
+    void warn_of_twins(const Things& things, std::string_view what) {
+        std::set<std::string_view> names;
+        for (const auto& thing : things)
+            if (!names.insert(thing.name).second) warn_of_twin(thing.where, what, thing.name);
+    }
+
+    /// Adds a model to others. `named` is whether its name was written for it. Others share that of their
+    /// file, which misleads only in what moves. Two robots of one name are an error in a world.
+    void add(Model model, bool named, std::vector<Model>& models) {
+        const auto is_robot = [](const Model& m) {
+            return std::ranges::find(m.plugins, "libvel_plugin.so", &Plugin::filename) != m.plugins.end();
+        };
+        const auto same = std::ranges::find(models, model.name, &Model::name);
+        if (same != models.end() && (named || !model.is_static) && !(is_robot(model) && is_robot(*same)))
+            warn_of_twin(model.where, "model", model.name);
+        models.push_back(std::move(model));
+    }
+
+    /// Adds what an included model holds to `model`, as <include merge="true"> wants it.
+    void merge(Model included, Model& model, const xml::Element& include) {
+        if (included.is_static && !model.is_static)
+            diagnostics_.warning(
+                include.where(),
+                fmt::format("the merged model is static, but '{}' is not: it can be pushed", model.name),
+                fmt::format("write <static>true</static> in '{}'", model.name));
+        for (Link& link : included.links) {
+            link.pose = included.pose * link.pose;
+            model.links.push_back(std::move(link));
+        }
+        for (Model& inner : included.models) {
+            inner.pose = included.pose * inner.pose;
+            add(std::move(inner), true, model.models);
+        }
+        std::ranges::move(included.hinges, std::back_inserter(model.hinges));
+        std::ranges::move(included.plugins, std::back_inserter(model.plugins));
+    }
+
+    /// Whether an <include> merges its model into `model`, which is null directly in a world.
+    bool merges(const xml::Element& include, const Model* model) {
+        if (!include["merge"].flag(false)) return false;
+        if (!model)
+            diagnostics_.warning(include.where(), "merge=\"true\" has no effect directly in <world>",
+                                 "it adds the links of a model to the <model> in which the <include> stands");
+        else if (const xml::Element name = include.child("name"))
+            diagnostics_.warning(name.where(), "the <name> of a merged model has no effect",
+                                 fmt::format("its links become those of '{}'", model->name));
+        return model != nullptr;
+    }
+
+    /// Reads the models and includes in `parent`, in file order. Calls visit_light(element, include) for an
+    /// included light. `outer` is the model that `parent` describes, if it is one.
     template <class F>
-    void each_model(const xml::Element& parent, std::vector<Model>& models, F visit_light) {
+    void each_model(const xml::Element& parent, std::vector<Model>& models, Model* outer, F visit_light) {
         for (const xml::Element& e : parent.children()) {
-            if (e.name() == "model") models.push_back(read_model(e));
+            if (e.name() == "model") add(read_model(e), true, models);
             if (e.name() != "include") continue;
             const Content content = included(e);
-            if (content.model && fits(content.links, e)) models.push_back(placed(*content.model, e));
-            if (content.light) visit_light(content.light);
+            if (content.model && fits(content.links, e)) {
+                if (merges(e, outer))
+                    merge(placed(*content.model, e), *outer, e);
+                else
+                    add(placed(*content.model, e), bool(e.child("name")), models);
+            }
+            if (content.light) visit_light(content.light, e);
         }
+    }
+
+    /// Warns of static models in a movable one, with which they move.
+    void warn_of_static(const Model& outer, const Model& movable) {
+        for (const Model& inner : outer.models) {
+            if (inner.is_static)
+                diagnostics_.warning(inner.where,
+                                     fmt::format("'{}' is static, but a part of '{}', with which it moves",
+                                                 inner.name, movable.name),
+                                     "put it beside that model, or make that model static");
+            warn_of_static(inner, movable);
+        }
+    }
+
+    /// Puts models where <state> says that they are: a saved world has the poses of its last moment there.
+    void apply_state(const xml::Element& state, WorldDescription& world) {
+        for (const xml::Element& e : state.children("model")) {
+            const auto found = std::ranges::find(world.models, e["name"].view, &Model::name);
+            if (found == world.models.end()) {
+                std::vector<std::string> names;
+                for (const Model& model : world.models) names.push_back(model.name);
+                diagnostics_.warning(
+                    e.where(),
+                    fmt::format("<state> names a model '{}' that the world does not have", e["name"].view),
+                    suggest(e["name"].view, names));
+                continue;
+            }
+            if (e.child("pose")) found->pose = in_.pose_of(e);
+            if (const xml::Element part = moved_part(e, *found, found->pose))
+                diagnostics_.warning(
+                    part.where(),
+                    fmt::format("<state> moves '{}', a part of '{}': it stays where its model "
+                                "puts it",
+                                part["name"].view, found->name),
+                    "only whole models are moved");
+        }
+    }
+
+    /// The first part of a model in <state> that is elsewhere than in `model`, whose pose in the world is
+    /// `at`.
+    xml::Element moved_part(const xml::Element& state, const Model& model, const Pose& at) {
+        const auto moved = [&](const xml::Element& part, const Pose& pose) {
+            return part.child("pose") && !is_near(pose, in_.pose_of(part));
+        };
+        for (const xml::Element& e : state.children("link"))
+            for (const Link& link : model.links)
+                if (link.name == e["name"].view && moved(e, at * link.pose)) return e;
+        for (const xml::Element& e : state.children("model"))
+            for (const Model& inner : model.models) {
+                if (inner.name != e["name"].view) continue;
+                if (moved(e, at * inner.pose)) return e;
+                if (const xml::Element part = moved_part(e, inner, at * inner.pose)) return part;
+            }
+        return {};
+    }
+
+    /// Whether two poses are the same on the floor, but for what models sink into it.
+    static bool is_near(const Pose& a, const Pose& b) {
+        const Pose2 p = in_plane(a), q = in_plane(b);
+        return std::hypot(p.x - q.x, p.y - q.y) < 0.01 && std::cos(p.yaw - q.yaw) > 0.9999;
     }
 
     WorldDescription read_world_element(const xml::Element& e) {
@@ -192,7 +324,7 @@ class Reader {
                                     .number(physics.value("update_rate").number(world.update_rate));
         }
         world.ambient = read_colour(e.value("scene/ambient"), Colour(Colour::Constant(world.ambient)))(0);
-        const auto read_light = [&](const xml::Element& light) {
+        const auto read_light = [&](const xml::Element& light, const xml::Element& placed) {
             if (light["type"].view != "directional") {
                 diagnostics_.warning(light.where(),
                                      "only directional lights are simulated; this one is ignored");
@@ -200,14 +332,15 @@ class Reader {
                 diagnostics_.warning(light.where(),
                                      "there are several directional lights; the first one is used");
             } else {
-                const Eigen::Vector3d d = read_vector(light.value("direction"), Eigen::Vector3d(0, 0, -1));
+                const Eigen::Vector3d d = in_.pose_of(placed.child("pose") ? placed : light).linear() *
+                                          read_vector(light.value("direction"), Eigen::Vector3d(0, 0, -1));
                 if (!(d.norm() > 0))
                     diagnostics_.error(light.where(), "a light needs a <direction> that is not 0",
                                        "straight down is 0 0 -1");
                 world.sun = -d.normalized();
             }
         };
-        for (const xml::Element& light : e.children("light")) read_light(light);
+        for (const xml::Element& light : e.children("light")) read_light(light, light);
         for (const xml::Element& p : e.children("plugin")) {
             const std::string_view file = p["filename"].view;
             const bool game = file == "libforage_game.so";
@@ -226,7 +359,10 @@ class Reader {
             else
                 world.trials = read_trials(in_, p);
         }
-        each_model(e, world.models, read_light);
+        each_model(e, world.models, nullptr, read_light);
+        for (const Model& model : world.models)
+            if (!model.is_static) warn_of_static(model, model);
+        if (const xml::Element state = e.child("state")) apply_state(state, world);
         return world;
     }
 

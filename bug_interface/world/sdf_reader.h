@@ -15,7 +15,8 @@ namespace forage::bug {
 /// `model://NAME` is looked up in `extra_model_dirs`, in `models` and `../models` beside the world file, and
 /// in the directories listed in the environment variables FORAGE_MODEL_PATH and GAZEBO_MODEL_PATH (separated
 /// by colons). Files that strict readers of the format refuse are read as in the original: names may be
-/// repeated, the order of the file is kept, and only the first model of an included file counts.
+/// repeated, with a warning where this misleads, the order of the file is kept, and only the first model of
+/// an included file counts.
 ///
 /// A `text` that is not empty is read instead of the file, as if it stood there.
 std::optional<WorldDescription> read_world(const std::string& path, Diagnostics& diagnostics,

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 #include <fmt/format.h>
@@ -35,6 +37,17 @@ void read_sensor(SdfSource& in, const xml::Element& e, Link& link) {
         s.first_angle = scan.value("min_angle").number(0), s.last_angle = scan.value("max_angle").number(0);
         s.min_range = range.value("min").number(0), s.max_range = range.value("max").number(0);
         s.noise = e.value("ray/noise/stddev").number(0), s.rate = e.value("update_rate").number(0);
+        if (constexpr double turn = 2 * std::numbers::pi + 1e-3;
+            std::max({std::abs(s.first_angle), std::abs(s.last_angle),
+                      std::abs(s.last_angle - s.first_angle)}) > turn)
+            in.diagnostics.warning(
+                scan.where(),
+                fmt::format(
+                    "ray sensor '{}' scans from {:g} to {:g}, which is more than a turn: radians, not "
+                    "degrees?",
+                    s.name, s.first_angle, s.last_angle),
+                fmt::format("{:g} and {:g} degrees are {:.5g} and {:.5g} rad", s.first_angle, s.last_angle,
+                            s.first_angle * std::numbers::pi / 180, s.last_angle * std::numbers::pi / 180));
         if (!(s.max_range > s.min_range))
             in.diagnostics.error(range.where(), fmt::format("ray sensor '{}' needs min < max", s.name),
                                  fmt::format("it has min {:g} m, max {:g} m", s.min_range, s.max_range));

@@ -30,6 +30,15 @@ Eigen::Quaterniond rotation(double roll, double pitch, double yaw) {
     return {w / length, x / length, y / length, z / length};
 }
 
+/// Whether the frame that a <pose> in `parent` names is the one in which the pose is read anyway.
+bool is_own_frame(std::string_view frame, const xml::Element& parent) {
+    const xml::Element outer = parent.parent();
+    if (parent.name() == "joint") return frame == parent.value("child").view;
+    if (outer && outer.name() == "link") return frame == outer["name"].view;
+    if (outer && outer.name() == "model") return frame == "__model__";
+    return frame == "world";
+}
+
 }  // namespace
 
 xml::Element SdfSource::open(const std::string& path) {
@@ -46,6 +55,10 @@ xml::Element SdfSource::checked(std::unique_ptr<const xml::Document> document, i
     if (document) xml::check(*document, sdf_format(), diagnostics);
     if (diagnostics.errors() > errors_before) return {};
     return files_.emplace_back(std::move(document))->root();
+}
+
+std::string SdfSource::found(const xml::Element& uri) const {
+    return folders.find(uri.value().text(), uri.document().source->path);
 }
 
 /// Warns about angles of more than a turn, which are probably degrees.
@@ -65,8 +78,9 @@ Pose SdfSource::pose_of(const xml::Element& parent) {
     const xml::Element e = parent.child("pose");
     if (!e) return pose;
     for (const char* attribute : {"relative_to", "frame"})  // "frame" until version 1.6
-        if (!e[attribute].view.empty())
-            diagnostics.error(e.where(), "poses relative to a named frame are not supported",
+        if (const auto frame = e[attribute].view; !frame.empty() && !is_own_frame(frame, parent))
+            diagnostics.error(e.where(),
+                              fmt::format("this <pose> is relative to '{}', which is not supported", frame),
                               "give the pose relative to the enclosing element");
     const std::vector<double> v = e.value().numbers();
     if (v.empty()) return pose;

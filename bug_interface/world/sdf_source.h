@@ -24,6 +24,9 @@ class SdfSource {
     /// The same of a text that the file `path` may hold.
     xml::Element parse(const std::string& path, const std::string& text);
 
+    /// The path that an <uri> stands for: relative to its file, then in the folders of models. Empty when
+    /// nothing exists there.
+    std::string found(const xml::Element& uri) const;
     /// Reads the <pose> in `parent`.
     Pose pose_of(const xml::Element& parent);
 

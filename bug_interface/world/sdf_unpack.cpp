@@ -83,7 +83,7 @@ std::string split_model(const std::string& text, const WorldTree& tree, const En
     count = 1;
     if (e.form != Entry::Form::model || !may_unpack(text, e)) return text;
     const auto place = place_of(text, tree, *e.element);
-    const auto at = pose_of(text, *e.element);
+    const auto at = e.pose(text);
     std::vector<std::string> lines;
     std::size_t done = e.element->tag.end;  // up to here, everything is in `lines`
     count = 0;
@@ -118,6 +118,7 @@ std::string split_model(const std::string& text, const WorldTree& tree, const En
     comments_until(e.element->whole.end);
     xml::TextEdits out;
     out.replace(e.element->whole, joined(lines, place.indentation, place.layout));
+    if (e.state) out.cut(text, e.state->whole);
     return out.applied(text);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -47,6 +48,15 @@ class Checker {
     Checker(const Format& format, Diagnostics& out) : format_(format), out_(out) {}
 
     bool sound() const { return sound_; }
+
+    /// Reports what has no effect: once for all elements or attributes of the same name in the same element.
+    void report_inert() {
+        for (auto& [message, inert] : inert_)
+            out_.warning(
+                inert.first,
+                inert.count == 1 ? message : fmt::format("{} ({} times in this file)", message, inert.count),
+                inert.hint);
+    }
 
     void element(const Element& e, const ChildRule& rule) {
         if (!rule.value) {
@@ -102,7 +112,13 @@ class Checker {
                 structural(child.where(),
                            fmt::format("<{}> holds more than {} <{}>", e.name(), known->most, known->name),
                            "keep one of them");
-            element(child, *known);
+            else if (known->first_counts && n == 2)
+                out_.warning(child.where(), fmt::format("<{}> holds several <{}>", e.name(), known->name),
+                             "the first one counts");
+            if (known->inert)
+                inert(child, *known);
+            else
+                element(child, *known);
         }
         if (unknown_children) return;  // a missing element is probably the misspelt one
         if (chosen < rule.choose && !(rule.or_none && chosen == 0))
@@ -115,6 +131,50 @@ class Checker {
             if (const ChildRule& c = rule.children[i]; count[i] < c.least)
                 structural(e.where(), fmt::format("<{}> needs the element <{}>", e.name(), c.name),
                            fmt::format("<{}>: {}", c.name, c.value ? c.value->doc : c.rule->doc));
+    }
+
+    /// Checks an element that nothing reads, and notes a value that does not hold anyway.
+    void inert(const Element& e, const ChildRule& rule) {
+        const int errors_before = out_.errors();
+        const bool unchecked = !rule.value || rule.value->kind == ValueKind::any;
+        if (!unchecked) value(e.value(), {}, *rule.value);
+        if (out_.errors() > errors_before || *rule.inert == "*") return;
+        if (unchecked ? !is_empty(e) : !e.value().view.empty() && !is_inert(e.value(), *rule.inert))
+            note_inert(e.where(), fmt::format("<{}> in <{}> has no effect", e.name(), e.parent().name()),
+                       unchecked && rule.value ? rule.value->doc : "");
+    }
+
+    /// Whether an element holds nothing but zeros and such elements.
+    static bool is_empty(const Element& e) {
+        const auto text = e.value().view;
+        return e.attributes().empty() &&
+               (text == "false" || text.find_first_not_of("0.- \t\r\n") == text.npos) &&
+               std::ranges::all_of(e.children(), is_empty);
+    }
+
+    /// Whether a value is `inert`, an entry of ChildRule::inert.
+    static bool is_inert(const Value& v, std::string_view inert) {
+        const auto bar = inert.find('|');
+        if (bar < inert.size() && is_inert(v, inert.substr(bar + 1))) return true;
+        inert = inert.substr(0, bar);
+        if (inert == "*" || v.view == inert) return true;
+        if (v.flag() && (inert == "0" || inert == "1")) return *v.flag() == (inert == "1");
+        std::string list(inert);
+        std::ranges::replace(list, ',', ' ');
+        const auto numbers = v.numbers();
+        std::size_t i = 0;
+        for (const std::string_view word : words(list)) {
+            const auto wanted = parse_number<double>(word);
+            if (!wanted || i >= numbers.size()) return false;
+            if (std::abs(numbers[i++] - *wanted) > 0.01 * std::max(1.0, std::abs(*wanted)))
+                return false;  // 9.81 is near to 9.8
+        }
+        return i > 0;
+    }
+
+    void note_inert(const Location& where, std::string message, std::string hint) {
+        auto& inert = inert_[std::move(message)];
+        if (inert.count++ == 0) inert.first = where, inert.hint = std::move(hint);
     }
 
     static std::string amount(const ElementRule& rule) {
@@ -163,7 +223,21 @@ class Checker {
         for (const Attribute& a : e.attributes()) {
             if (const AttributeRule* r = rule.attribute(a.name)) {
                 value(a.value, a.name, r->value);
-            } else if (!format_.open) {
+                if (r->inert && !a.value.view.empty() && !is_inert(a.value, *r->inert))
+                    note_inert(e.document().place(a.at),
+                               fmt::format("the attribute '{}' of <{}> has no effect", a.name, e.name()), {});
+            } else if (format_.open) {
+                if (rule.value && rule.value->kind == ValueKind::any) continue;
+                if (a.name.starts_with("xmlns") || a.name.find(':') != std::string_view::npos) continue;
+                const auto known = model::names_of(rule.attributes), inside = model::names_of(rule.children);
+                const auto child = nearest(a.name, inside);
+                note_inert(e.document().place(a.at),
+                           fmt::format("<{}> has no attribute '{}': it has no effect", e.name(), a.name),
+                           !child.empty() && (child == a.name || nearest(a.name, known).empty())
+                               ? fmt::format("write <{0}>{1}</{0}> in <{2}>", child, a.value.view, e.name())
+                           : known.empty() ? fmt::format("<{}> has no attributes", e.name())
+                                           : suggest(a.name, known));
+            } else {
                 const std::vector<std::string> known = model::names_of(rule.attributes);
                 meant.emplace_back(nearest(a.name, known));
                 out_.unknown(
@@ -244,8 +318,15 @@ class Checker {
 
     static constexpr int max_errors = 100'000;  // further ones would not be printed
 
+    struct Inert {
+        Location first;
+        std::string hint;
+        int count = 0;
+    };
+
     const Format& format_;
     Diagnostics& out_;
+    std::map<std::string, Inert> inert_;  ///< by message
     bool sound_ = true;
 };
 
@@ -293,6 +374,7 @@ bool check(const Document& document, const Format& format, Diagnostics& diagnost
 bool check(const Element& element, const ElementRule& rule, const Format& format, Diagnostics& diagnostics) {
     Checker checker(format, diagnostics);
     checker.element(element, {.name = rule.name, .value = rule.value, .rule = &rule});
+    checker.report_inert();
     return checker.sound();
 }
 

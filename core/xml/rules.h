@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -64,6 +65,7 @@ struct AttributeRule {
     bool omit_default = false;   ///< whether a value that is the default is not written
     bool alternative = false;    ///< whether its element has exactly one of several such attributes
     bool relative_path = false;  ///< whether it is a path from the folder of the file
+    std::optional<std::string> inert = {};  ///< as in ChildRule
 };
 
 struct ElementRule;
@@ -72,8 +74,12 @@ struct ElementRule;
 struct ChildRule {
     std::string name;
     int least = 0, most = 1;
+    bool first_counts = false;          ///< whether further ones have no effect
     const ValueRule* value = nullptr;   ///< the rule for its text; null when it has no text
     const ElementRule* rule = nullptr;  ///< its attributes and elements
+    /// Of an element that nothing reads: the value that holds anyway, with commas between numbers and |
+    /// between alternatives, or "*" for every value. Other values give a warning.
+    std::optional<std::string> inert = {};
 };
 
 struct ElementRule {
@@ -81,6 +87,8 @@ struct ElementRule {
     /// The elements that may stand in it, with blanks between them: "Note?:text Process". After a name stands
     /// ? for at most once, ! for once, + for at least once, and nothing for any number; then :KIND, a key of
     /// Format::values, when the element has a value. A :KIND without a name is that of the element itself.
+    /// In an open format, & stands for any number, nothing for at most one that counts, @ROW before :KIND for
+    /// another row than that of the name, and =VALUE at the end for ChildRule::inert.
     std::string content = {};
     std::vector<AttributeRule> attributes = {};
     int choose = 0;        ///< the number of elements in it when they are alternatives, else 0
@@ -99,8 +107,8 @@ struct Format {
     std::vector<std::string_view> roots =
         {};  ///< names of the outermost element; the first one is in the table
     std::size_t max_nodes = std::size_t{1} << 20;  ///< elements, attributes and comments of a file
-    /// Whether other programs extend the format. Unknown elements then have no effect and give warnings, and
-    /// unknown attributes are ignored.
+    /// Whether other programs extend the format. Unknown elements and attributes then have no effect and give
+    /// warnings.
     bool open = false;
     std::string_view where_texts_stand = "a remark is written <!-- -->";  ///< hint for a text elsewhere
     std::map<std::string, ValueRule, std::less<>> values = {};            ///< rules by name of a kind

@@ -354,3 +354,20 @@ TEST_CASE("a name may hold the quotes of the author, and an empty material is pa
     CHECK(items[1].name == id);
     CHECK(items[1].parts[0].color == "#ff0000");
 }
+
+TEST_CASE("An edit of a model that <state> places changes its pose and its name there") {
+    const std::string text =
+        "<sdf version='1.6'><world name='w'><model name='Box'><pose>1 0 0 0 0 0</pose><link "
+        "name='l'/></model>"
+        "<state world_name='w'><model name='Box'><pose>2 3 0 0 0 0</pose><link name='l'><pose>2 3 0 0 0 "
+        "0</pose>"
+        "</link></model></state></world></sdf>";
+    ModelTexts models("a.world");
+    CHECK(items_of_world(text, models)[1].x == 2);
+    CHECK_THAT(moved_in_world(text, "Box", 4, 5, {}, models),
+               ContainsSubstring("<model name='Box'><pose>4 5 0 0 0 0</pose></model></state>"));
+    std::string id = "Box";
+    CHECK_THAT(set_in_world(text, id, "name", "Crate", models),
+               ContainsSubstring("<state world_name='w'><model name=\"Crate\">"));
+    CHECK_THAT(removed_from_world(text, "Box", models), !ContainsSubstring("Box"));
+}

@@ -49,7 +49,6 @@ TEST_CASE("An incomplete or wrong include gives an error with a hint") {
           "there is no model 'model://floor' | did you mean 'model://floor_ambiguous' or "
           "'model://floor_basic' or 'model://floor_maze' or "
           "'model://floor_open'?\n");
-    CHECK(said("<uri>target</uri>") == "there is no model 'target' | write model://target\n");
     CHECK_THAT(said("<uri>model://quux</uri>"), ContainsSubstring("the models are desert_walls, "));
 }
 
@@ -197,4 +196,175 @@ TEST_CASE("A model that includes itself is an error, not an endless recursion") 
                            diagnostics));
     REQUIRE(diagnostics.errors() == 1);
     CHECK(diagnostics.all()[0].message == "'model://m' includes itself");
+}
+
+namespace {
+
+/// A world with this content, and its diagnostics, one "message | hint" per line.
+struct ReadWorld {
+    std::optional<WorldDescription> world;
+    std::string said;
+};
+ReadWorld read_inside(const Scratch& scratch, const std::string& inside) {
+    ReadWorld out;
+    Diagnostics diagnostics;
+    out.world = read_world(
+        scratch.write("worlds/a.world", "<sdf version='1.9'><world name='w'>" + inside + "</world></sdf>"),
+        diagnostics);
+    for (const auto& d : diagnostics.all()) out.said += d.message + " | " + d.hint + "\n";
+    return out;
+}
+void write_model(const Scratch& scratch, const std::string& folder, const std::string& model) {
+    scratch.write(folder + "/model.config", "<model><sdf version='1.4'>model.sdf</sdf></model>");
+    scratch.write(folder + "/model.sdf", "<sdf version='1.4'>" + model + "</sdf>");
+}
+
+const std::string shape =
+    "<collision name='c'><geometry><sphere><radius>0.1</radius></sphere></geometry></collision>";
+
+}  // namespace
+
+TEST_CASE("<state> says where the models of a saved world are") {
+    const Scratch scratch;
+    const auto in = read_inside(
+        scratch,
+        "<model name='Box'><pose>1 0 0 0 0 0</pose><link name='l'><pose>0.5 0 0 0 0 0</pose>" + shape +
+            "</link></model><state world_name='w'><sim_time>1 0</sim_time><model name='Box'>"
+            "<pose frame=''>2 3 0 0 0 0</pose><scale>1 1 1</scale><link name='l'>"
+            "<pose frame=''>2.5 3 0 0 0 0</pose><velocity>0 0 0 0 -0 0</velocity></link></model></state>");
+    REQUIRE(in.world);
+    CHECK(in.said.empty());
+    CHECK(in.world->models[0].pose.translation() == Eigen::Vector3d(2, 3, 0));
+    const auto other = read_inside(
+        scratch, "<model name='Box'><link name='l'>" + shape +
+                     "</link></model><state world_name='w'><insertions><model name='x'/></insertions>"
+                     "<model name='Bx'/><model name='Box'><link name='l'><pose>1 0 0 0 0 0</pose>"
+                     "</link></model></state>");
+    CHECK_THAT(other.said, ContainsSubstring("<insertions> in <state> has no effect"));
+    CHECK_THAT(other.said,
+               ContainsSubstring("a model 'Bx' that the world does not have | did you mean 'Box'?"));
+    CHECK_THAT(other.said, ContainsSubstring("<state> moves 'l', a part of 'Box'"));
+    const auto inner = read_inside(
+        scratch, "<model name='Cart'><model name='m'><pose>1 0 0 0 0 0</pose><link name='l'>" + shape +
+                     "</link></model></model><state world_name='w'><model name='Cart'>"
+                     "<pose>2 0 0 0 0 0</pose><scale>2 1 1</scale><model name='m'><pose>3 0 0 0 0 0"
+                     "</pose><link name='l'><pose>3 1 0 0 0 0</pose></link></model></model></state>");
+    CHECK_THAT(inner.said, ContainsSubstring("<scale> in <model> has no effect"));
+    CHECK_THAT(inner.said, ContainsSubstring("<state> moves 'l', a part of 'Cart'"));
+}
+
+TEST_CASE("A merged model's links become those of the model that includes it") {
+    const Scratch scratch;
+    write_model(scratch, "models/m",
+                "<model name='m'><pose>1 0 0 0 0 0</pose><link name='l'>" + shape +
+                    "</link><plugin name='p' filename='libvel_plugin.so'/></model>");
+    const auto in = read_inside(scratch,
+                                "<model name='Cart'><pose>5 0 0 0 0 0</pose><include merge='true'>"
+                                "<uri>model://m</uri></include></model>");
+    REQUIRE(in.world);
+    CHECK(in.said.empty());
+    const Model& cart = in.world->models[0];
+    CHECK(cart.models.empty());
+    REQUIRE(cart.links.size() == 1);
+    CHECK(cart.links[0].pose.translation().x() == 1);
+    CHECK(cart.plugins.size() == 1);
+    write_model(scratch, "models/s", "<model name='s'><static>1</static><link name='l'/></model>");
+    const auto include = [&](const std::string& inside) {
+        return "<include merge='true'>" + inside + "<uri>model://s</uri></include>";
+    };
+    CHECK_THAT(read_inside(scratch, "<model name='Cart'>" + include("<name>n</name>") + "</model>").said,
+               ContainsSubstring("the merged model is static, but 'Cart' is not") &&
+                   ContainsSubstring("the <name> of a merged model has no effect"));
+    CHECK_THAT(read_inside(scratch, include("")).said, ContainsSubstring("no effect directly in <world>"));
+    CHECK_THAT(read_inside(scratch, "<model name='Cart'><link name='l'/>" + include("") + "</model>").said,
+               ContainsSubstring("two links are called 'l'"));
+}
+
+TEST_CASE("A path in <uri> is relative to its file, then to the folders of models") {
+    const Scratch scratch;
+    const std::string model = "<model name='m'><link name='l'>" + shape + "</link></model>";
+    write_model(scratch, "worlds/own/m", model);
+    write_model(scratch, "models/n", model);
+    write_model(scratch, "models/a b", model);
+    write_model(scratch, "models/outer", "<model name='o'><include><uri>../n</uri></include></model>");
+    for (const char* uri :
+         {"own/m", "./own/m/model.sdf", "file:own/m", "file://own/m", "n", "file://n", "model://outer",
+          "outer/model.sdf", "model://a%20b", "model://a b", "own/m%2Fmodel.sdf"}) {
+        INFO(uri);
+        const auto in = read_inside(scratch, std::string("<include><uri>") + uri + "</uri></include>");
+        CHECK(in.world);
+        CHECK(in.said.empty());
+    }
+    const auto absolute = "file://" + (scratch.path / "models/n").string();
+    CHECK(read_inside(scratch, "<include><uri>" + absolute + "</uri></include>").world);
+    for (const char* uri : {"model://../worlds/own/m", "model://%2e%2e/worlds/own/m", "model:///etc/passwd"})
+        CHECK_THAT(read_inside(scratch, std::string("<include><uri>") + uri + "</uri></include>").said,
+                   ContainsSubstring("there is no model"));
+    write_model(scratch, "models/cycle", "<model name='o'><include><uri>../cycle</uri></include></model>");
+    CHECK_THAT(read_inside(scratch, "<include><uri>model://cycle</uri></include>").said,
+               ContainsSubstring("includes itself"));
+}
+
+TEST_CASE("The file of a model is in its folder, and no text of other files is shown") {
+    const Scratch scratch;
+    scratch.write("secret", "password\n");
+    scratch.write("models/m/model.config", "<model><sdf version='1.4'>../../secret</sdf></model>");
+    CHECK_THAT(read_inside(scratch, "<include><uri>model://m</uri></include>").said,
+               ContainsSubstring("is not in the folder of its model"));
+    std::filesystem::create_symlink("../../secret", scratch.path / "models/m/link");
+    scratch.write("models/m/model.config", "<model><sdf version='1.4'>link</sdf></model>");
+    CHECK_THAT(read_inside(scratch, "<include><uri>model://m</uri></include>").said,
+               ContainsSubstring("is not in the folder of its model"));
+    Diagnostics diagnostics;
+    const auto file = scratch.write("a.world",
+                                    "<sdf version='1.4'><world name='w'><include><uri>secret</uri>"
+                                    "</include></world></sdf>");
+    CHECK_FALSE(read_world(file, diagnostics));
+    CHECK_THAT(format(diagnostics), !ContainsSubstring("password"));
+}
+
+TEST_CASE("The reader warns of what is probably not meant") {
+    const Scratch scratch;
+    const auto said = [&](const std::string& inside) { return read_inside(scratch, inside).said; };
+    const std::string box = "<model name='Box'><link name='l'>" + shape + "</link></model>";
+    CHECK_THAT(said(box + box), ContainsSubstring("two models are called 'Box'"));
+    write_model(scratch, "models/post",
+                "<model name='Box'><static>1</static><link name='l'>" + shape + shape +
+                    "</link><link name='l'/></model>");
+    const std::string post = "<include><uri>model://post</uri></include>";
+    CHECK(said(box + post + post).empty());  // static models may have the name of their file
+    CHECK_THAT(said(post + box), ContainsSubstring("two models are called 'Box'"));
+    CHECK_THAT(said(box + "<include><name>Box</name><uri>model://post</uri></include>"),
+               ContainsSubstring("two models are called 'Box'"));
+    const std::string robot =
+        "<model name='r'><link name='bug'/><plugin name='p' filename='libvel_plugin.so'/>"
+        "</model>";
+    CHECK(said(robot + robot).empty());  // an error, which is reported when the world is built
+    CHECK_THAT(said("<model name='m'><link name='l'/><link name='l'/></model>"),
+               ContainsSubstring("two links are called 'l'"));
+    const std::string joint =
+        "<joint name='j' type='revolute'><parent>a</parent><child>b</child><axis><limit>"
+        "<lower>0</lower><upper>1</upper></limit></axis></joint>";
+    CHECK_THAT(said("<model name='m'><link name='a'/><link name='b'/>" + joint + joint + "</model>"),
+               ContainsSubstring("two joints are called 'j'"));
+    write_model(scratch, "models/lamp", "<light name='sun' type='directional'/>");
+    CHECK_THAT(said("<model name='m'><link name='l'/><include><uri>model://lamp</uri></include></model>"),
+               ContainsSubstring("a light in a model has no effect"));
+    CHECK_THAT(said("<model name='m'><link name='l'/><model name='Post'><static>1</static></model></model>"),
+               ContainsSubstring("'Post' is static, but a part of 'm'"));
+    CHECK(said("<model name='m'><static>1</static><model name='Post'><static>1</static></model></model>")
+              .empty());
+    CHECK_THAT(said("<model name='m'><link name='l'><visual name='v'><geometry><mesh><uri>a.dae</uri></mesh>"
+                    "</geometry></visual></link></model>"),
+               ContainsSubstring("<mesh> in <geometry> has no effect | this visual is not drawn"));
+    CHECK_THAT(
+        said("<model name='m'><link name='l'><sensor name='laser' type='ray'><ray><scan><horizontal>"
+             "<samples>9</samples><min_angle>-90</min_angle><max_angle>90</max_angle></horizontal></scan>"
+             "<range><min>0</min><max>1</max></range></ray></sensor></link></model>"),
+        ContainsSubstring("scans from -90 to 90, which is more than a turn"));
+    CHECK(said("<model name='m'><pose relative_to='world'>1 0 0 0 0 0</pose><link name='l'>"
+               "<pose relative_to='__model__'>1 0 0 0 0 0</pose></link></model>")
+              .empty());
+    CHECK_THAT(said("<model name='m'><pose relative_to='Bug'>1 0 0 0 0 0</pose></model>"),
+               ContainsSubstring("this <pose> is relative to 'Bug', which is not supported"));
 }
