@@ -72,9 +72,10 @@ void Arbor::ellipse(Place c, int width, int height, const PointVisitor& visit) c
     }
 }
 
-double Arbor::max_points() const {
-    const auto box = [this](int width, int height) {
-        return std::min(width + 1.0, length(reach_x_)) * std::min(height + 1.0, length(reach_y_));
+double Arbor::max_points(bool whole) const {
+    const auto covered = [whole](int size) { return size + (whole && size % 2 != 0 ? 0.0 : 1.0); };
+    const auto box = [&](int width, int height) {
+        return std::min(covered(width), length(reach_x_)) * std::min(covered(height), length(reach_y_));
     };
     const double all = static_cast<double>(grid_.width()) * grid_.height();
     return std::visit(

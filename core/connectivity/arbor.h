@@ -21,8 +21,9 @@ class Arbor {
     /// the point is wrapped around a cylinder.
     void spread(Place centre, const std::function<void(int, double)>& visit);
 
-    /// An upper bound on the number of cells around any centre, computed without listing them.
-    double max_points() const;
+    /// An upper bound on the number of cells around any centre, computed without listing them. `whole` says
+    /// that all centres are cells, not places between them.
+    double max_points(bool whole) const;
 
   private:
     using PointVisitor = std::function<void(int, int)>;

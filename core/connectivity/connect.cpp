@@ -1,6 +1,7 @@
 #include "core/connectivity/connect.h"
 
 #include <cmath>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -9,10 +10,46 @@
 #include "core/connectivity/pairs.h"
 
 namespace forage::connectivity {
+namespace {
+
+/// 100010000 as 100,010,000.
+std::string with_commas(double whole) {
+    std::string out = fmt::format("{:.0f}", whole);
+    for (auto at = static_cast<int>(out.size()) - 3; at > 0; at -= 3)
+        out.insert(static_cast<std::size_t>(at), ",");
+    return out;
+}
+
+/// The number of synapses that `for_each` visits, or `most` if it is larger.
+template <class ForEach>
+std::size_t count_to(std::size_t most, ForEach for_each) {
+    struct Enough {};
+    std::size_t n = 0;
+    Diagnostics unused;  // they are reported when the synapses are made
+    try {
+        for_each(unused, [&](int, int, double) {
+            if (++n >= most) throw Enough();
+        });
+    } catch (const Enough&) {  // NOLINT(bugprone-empty-catch): ends the visits
+    }
+    return n;
+}
+
+/// Whether a connection pairs all cells of a rectangle with all of another one.
+bool is_of_rectangles(const model::Connection& c, const model::Topology& source,
+                      const model::Topology& target) {
+    const auto* foreach = std::get_if<model::ForeachPattern>(&c.pattern);
+    return foreach && !std::holds_alternative<model::List>(foreach->source) &&
+           !std::holds_alternative<model::List>(foreach->target) &&
+           std::holds_alternative<model::RectTopology>(source) &&
+           std::holds_alternative<model::RectTopology>(target);
+}
+
+}  // namespace
 
 Synapses connect(const model::Connection& connection, const model::Topology& source_topology,
                  const model::Topology& target_topology, std::uint64_t seed, Diagnostics& diagnostics,
-                 double most) {
+                 std::size_t most) {
     enum Stream : std::uint32_t { arbor_stream, attenuation_stream, delay_stream };
     for (const auto* topology : {&source_topology, &target_topology}) {
         const GroupShape size = model::shape(*topology);
@@ -25,40 +62,52 @@ Synapses connect(const model::Connection& connection, const model::Topology& sou
     }
     const Grid source(source_topology), target(target_topology);
     const bool receptive = connection.arborization.direction == model::Direction::receptive;
-    Arbor arbor(connection.arborization, receptive ? source : target,
-                RandomStream(seed, connection.id, arbor_stream));
+    std::size_t paired = 0;
+    const auto for_each_synapse = [&](Diagnostics& about, auto visit) {
+        Arbor arbor(connection.arborization, receptive ? source : target,
+                    RandomStream(seed, connection.id, arbor_stream));
+        for_each_pair(
+            connection.pattern, source, target,
+            [&](Place s, Place t) {
+                const Place& fixed =
+                    receptive ? t : s;  // the side without arborization: the nearest cell, halves to even
+                const int cell = (receptive ? target : source)
+                                     .index(static_cast<int>(std::nearbyint(fixed.x)),
+                                            static_cast<int>(std::nearbyint(fixed.y)));
+                if (cell < 0) return;
+                ++paired;
+                arbor.spread(receptive ? s : t,
+                             [&](int spread_cell, double distance) { visit(cell, spread_cell, distance); });
+            },
+            about);
+    };
 
     Synapses out;
-    const double points = arbor.max_points(), pairs = most_pairs(connection.pattern, source, target);
-    if (pairs * points > most) {
+    const bool whole = !std::holds_alternative<model::MappedPattern>(connection.pattern);
+    const double points = Arbor(connection.arborization, receptive ? source : target, {}).max_points(whole);
+    const double pairs = most_pairs(connection.pattern, source, target), bound = pairs * points,
+                 limit = static_cast<double>(most);
+    const bool is_exact = points == 1 && connection.arborization.probability >= 1 &&
+                          is_of_rectangles(connection, source_topology, target_topology);
+    if (bound > limit && (is_exact || bound > 20 * limit || count_to(most + 1, for_each_synapse) > most)) {
         diagnostics.error(
             connection.at,
-            fmt::format("connection '{}' is too large: {:.4g} pairs of cells with up to {:.4g} points each",
-                        connection.name, pairs, points),
-            fmt::format("a connection has at most {:.4g} synapses; use smaller groups, a PatternMapped or a "
-                        "smaller arborization",
-                        most));
+            fmt::format("connection '{}' is too large: {} pairs of cells{}", connection.name,
+                        with_commas(pairs),
+                        points == 1 ? "" : fmt::format(" with up to {} synapses each", with_commas(points))),
+            fmt::format(
+                "a connection has at most {} synapses; use smaller groups, a PatternMapped or a smaller "
+                "arborization",
+                with_commas(limit)));
         return out;
     }
     const int errors_before = diagnostics.errors();
-    std::size_t paired = 0;
-    for_each_pair(
-        connection.pattern, source, target,
-        [&](Place s, Place t) {
-            const Place& fixed =
-                receptive ? t : s;  // the side without arborization: the nearest cell, halves to even
-            const int cell = (receptive ? target : source)
-                                 .index(static_cast<int>(std::nearbyint(fixed.x)),
-                                        static_cast<int>(std::nearbyint(fixed.y)));
-            if (cell < 0) return;
-            ++paired;
-            arbor.spread(receptive ? s : t, [&](int spread_cell, double distance) {
-                out.pre.push_back(receptive ? spread_cell : cell);
-                out.post.push_back(receptive ? cell : spread_cell);
-                out.distance.push_back(distance);
-            });
-        },
-        diagnostics);
+    paired = 0;
+    for_each_synapse(diagnostics, [&](int cell, int spread_cell, double distance) {
+        out.pre.push_back(receptive ? spread_cell : cell);
+        out.post.push_back(receptive ? cell : spread_cell);
+        out.distance.push_back(distance);
+    });
     if (out.size() == 0) {
         if (diagnostics.errors() > errors_before) return out;  // the reason was reported
         diagnostics.error(paired ? connection.arborization.at : connection.at,

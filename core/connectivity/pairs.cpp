@@ -144,6 +144,15 @@ Span cover(double centre, double size) {
     return {static_cast<int>(std::ceil(centre - size / 2)), static_cast<int>(std::floor(centre + size / 2))};
 }
 
+std::optional<std::vector<int>> indices(const model::Population& population, const Grid& grid) {
+    Diagnostics found;
+    std::vector<int> out;
+    for (const auto& [x, y] : cells(population, grid, found))
+        out.push_back(grid.index(static_cast<int>(x), static_cast<int>(y)));
+    if (!found.all().empty()) return {};
+    return out;
+}
+
 double most_pairs(const model::Pattern& pattern, const Grid& source, const Grid& target) {
     const auto size = [](const model::Population& population, const Grid& grid) {
         if (const auto* list = std::get_if<model::List>(&population))

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <vector>
 
 #include "core/connectivity/grid.h"
 #include "core/model/pattern.h"
@@ -19,6 +21,10 @@ void for_each_pair(const model::Pattern& pattern, const Grid& source, const Grid
 
 /// An upper bound of the number of pairs of a pattern, computed without listing them.
 double most_pairs(const model::Pattern& pattern, const Grid& source, const Grid& target);
+
+/// The indices of the cells of a population in the order of for_each_pair(). Empty if there is something to
+/// report about it.
+std::optional<std::vector<int>> indices(const model::Population& population, const Grid& grid);
 
 /// The first and last whole coordinate of an extent of `size` around `centre`: ceil(centre - size/2) and
 /// floor(centre + size/2). An even size around a whole centre covers size + 1 cells.

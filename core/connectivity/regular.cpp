@@ -55,35 +55,34 @@ void turn_round(std::vector<Offset>& offsets) {
 
 std::optional<Regular> regular(const model::Connection& c, const model::Topology& source_topology,
                                const model::Topology& target_topology) {
-    const auto *source = std::get_if<model::RectTopology>(&source_topology),
-               *target = std::get_if<model::RectTopology>(&target_topology);
-    if (!source || !target || random(c.attenuation) || random(c.delay) || c.arborization.probability < 1)
-        return {};
-    const bool receptive = c.arborization.direction == model::Direction::receptive;
-    const auto* spread = receptive ? source : target;
-    const double source_cells = static_cast<double>(source->width) * source->height,
-                 target_cells = static_cast<double>(target->width) * target->height;
-    const auto most = static_cast<double>(model::max_extent);
-    if (spread->wrap_x || spread->wrap_y || source_cells > most || target_cells > most) return {};
+    if (random(c.attenuation) || random(c.delay) || c.arborization.probability < 1) return {};
+    for (const auto* topology : {&source_topology, &target_topology}) {
+        const GroupShape size = model::shape(*topology);
+        if (static_cast<double>(size.width) * size.height > static_cast<double>(model::max_extent)) return {};
+    }
+    const auto* rect = std::get_if<model::RectArbor>(&c.arborization.shape);
 
     Regular out;
     std::vector<Offset> places;
     if (const auto* foreach = std::get_if<model::ForeachPattern>(&c.pattern)) {
-        const auto* arbor = std::get_if<model::RectArbor>(&c.arborization.shape);
-        if (!everything(foreach->source) || !everything(foreach->target) || !arbor || arbor->width != 1 ||
-            arbor->height != 1)
-            return {};
-        if (source_cells * target_cells > most_synapses) return {};
-        out.all_to_all = true;
+        if (!rect || rect->width != 1 || rect->height != 1) return {};
+        auto sources = indices(foreach->source, Grid(source_topology)),
+             targets = indices(foreach->target, Grid(target_topology));
+        if (!sources || !targets) return {};
+        out.synapses = sources->size() * targets->size();
+        if (out.synapses == 0 || out.synapses > most_synapses) return {};
+        out.all_to_all = true, out.sources = std::move(*sources), out.targets = std::move(*targets);
         places = {{0, 0}};
-        out.synapses = static_cast<std::size_t>(source_cells * target_cells);
     } else if (const auto* mapped = std::get_if<model::MappedPattern>(&c.pattern)) {
-        if (!everything(mapped->source) || !everything(mapped->target) || source->width != target->width ||
-            source->height != target->height)
+        const auto *source = std::get_if<model::RectTopology>(&source_topology),
+                   *target = std::get_if<model::RectTopology>(&target_topology);
+        const bool receptive = c.arborization.direction == model::Direction::receptive;
+        const auto* spread = receptive ? source : target;
+        if (!source || !target || spread->wrap_x || spread->wrap_y || !everything(mapped->source) ||
+            !everything(mapped->target) || source->width != target->width || source->height != target->height)
             return {};
         out.width = source->width, out.height = source->height;
         constexpr double max_taps = 4096;  // with more taps, a list is as fast
-        const auto* rect = std::get_if<model::RectArbor>(&c.arborization.shape);
         const auto* window = std::get_if<model::RectWindowArbor>(&c.arborization.shape);
         const double extent = rect     ? (rect->width + 1.0) * (rect->height + 1.0)
                               : window ? (window->outer_width + 1.0) * (window->outer_height + 1.0)
@@ -97,7 +96,7 @@ std::optional<Regular> regular(const model::Connection& c, const model::Topology
         double synapses = 0;
         for (const Offset& o : places)
             synapses += static_cast<double>(out.width - std::abs(o.x)) * (out.height - std::abs(o.y));
-        if (synapses == 0 || synapses > most_synapses) return {};
+        if (synapses == 0 || synapses > static_cast<double>(most_synapses)) return {};
         out.synapses = static_cast<std::size_t>(synapses);
     } else {
         return {};

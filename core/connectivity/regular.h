@@ -18,15 +18,19 @@ struct Regular {
         int delay;
         bool operator==(const Tap&) const = default;
     };
-    bool all_to_all = false;    ///< every source cell is connected, in order, with the values of the only tap
-    int width = 0, height = 0;  ///< size of source and target, cells; unused if all_to_all is set
-    std::vector<Tap> taps;      ///< in the order in which they are summed
-    double reference = 1;       ///< a synapse passes psp * (reference - attenuation)
+    /// Every cell of `sources` is connected with every cell of `targets`, in this order, with the values of
+    /// the only tap.
+    bool all_to_all = false;
+    std::vector<int> sources, targets;  ///< cells; unused if all_to_all is not set
+    int width = 0, height = 0;          ///< size of source and target, cells; unused if all_to_all is set
+    std::vector<Tap> taps;              ///< in the order in which they are summed
+    double reference = 1;               ///< a synapse passes psp * (reference - attenuation)
     std::size_t synapses = 0;
 };
 
-/// Recognises rectangular windows between groups of the same size, and all-to-all connections. Empty for
-/// other connections, and for those that are random, wrap around, or have no synapses.
+/// Recognises rectangular windows between groups of the same size, and a PatternForeach that pairs each cell
+/// once. Empty for other connections, for those that are random or have no synapses, for windows that wrap
+/// around, and if there is something to report about the pattern.
 std::optional<Regular> regular(const model::Connection& connection, const model::Topology& source,
                                const model::Topology& target);
 

@@ -44,7 +44,10 @@ struct MappedPattern {
     /// Whether to pair with every cell under the projected rectangle, not only with its centre.
     bool all = false;
     Population source, target;
-    friend bool operator==(const MappedPattern&, const MappedPattern&) = default;
+    bool is_stated = false;  ///< whether the file says "center" or "all"; not compared
+    friend bool operator==(const MappedPattern& a, const MappedPattern& b) {
+        return a.all == b.all && a.source == b.source && a.target == b.target;
+    }
 };
 
 /// Pairs every source cell with every target cell.

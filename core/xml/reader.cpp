@@ -205,7 +205,11 @@ class Reader {
     }
 
     model::Pattern pattern(const Element& e) {
-        if (e.name() == "PatternMapped") return populations(e, of<model::MappedPattern>(e));
+        if (e.name() == "PatternMapped") {
+            auto mapped = of<model::MappedPattern>(e);
+            mapped.is_stated = static_cast<bool>(e["type"]);
+            return populations(e, std::move(mapped));
+        }
         if (e.name() == "PatternForeach") return populations(e, model::ForeachPattern{});
         model::TuplesPattern tuples;
         for (const Element& t : e.children("Tuple"))

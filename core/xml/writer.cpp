@@ -165,7 +165,8 @@ class Writer : Printer {
         const auto written = [&c](const auto& part) {
             return !c.terse || part != std::remove_cvref_t<decltype(part)>{};
         };
-        if (written(c.pattern)) pattern(c.pattern);
+        const auto* mapped = std::get_if<model::MappedPattern>(&c.pattern);
+        if (written(c.pattern) || (mapped && mapped->is_stated)) pattern(c.pattern);
         if (written(c.arborization)) arborization(c.arborization);
         if (written(c.attenuation)) function("AttenuationFunction", c.attenuation);
         if (written(c.delay)) function("DelayFunction", c.delay);

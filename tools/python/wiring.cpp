@@ -40,7 +40,7 @@ py::object value(const model::Population& population) {
 }
 
 PythonPattern mapped(const py::object& source, const py::object& target, bool all) {
-    return {model::MappedPattern{all, population(source), population(target)}};
+    return {model::MappedPattern{all, population(source), population(target), true}};
 }
 PythonPattern foreach (const py::object& source, const py::object& target) {
     return {model::ForeachPattern{population(source), population(target)}};

@@ -1,4 +1,4 @@
-// All target cells receive the same sum, which is made once.
+// All target cells, or some of them, receive the same sum, which is made once.
 // Used for 7 of the 42 connections of the DAC system; 1,000 cells onto 1,000 cost 1,300 additions, not a
 // million.
 #include "core/engine/kernels/forms.h"
@@ -8,7 +8,8 @@ namespace {
 
 class Broadcast final : public Kernel {
   public:
-    Broadcast(ByTarget one, int target_cells) : s_(std::move(one)), target_cells_(target_cells) {
+    Broadcast(ByTarget one, int target_cells, std::vector<int> targets)
+        : s_(std::move(one)), target_cells_(target_cells), targets_(std::move(targets)) {
         const auto like_first = [](auto& all) {
             return std::all_of(all.begin(), all.end(), [&](auto v) { return v == all.front(); });
         };
@@ -26,10 +27,12 @@ class Broadcast final : public Kernel {
             for (std::size_t i = 0; i < n; ++i) sum += (in.ago(s_.delay[i])[s_.pre[i]] * gain) * s_.factor[i];
         }
         Column out(target, target_cells_);
+        const double everywhere = targets_.empty() ? sum : 0.0;
         if (first)
-            out = 0.0 + sum;
+            out = 0.0 + everywhere;
         else
-            out += sum;
+            out += everywhere;
+        for (const int t : targets_) target[t] += sum;
     }
     std::string_view form() const override { return "broadcast"; }
     double cost() const override {
@@ -39,13 +42,14 @@ class Broadcast final : public Kernel {
   private:
     ByTarget s_;  ///< the synapses of one target cell
     Index target_cells_;
+    std::vector<int> targets_;  ///< those with synapses; empty for all
     bool alike_;
 };
 
 }  // namespace
 
-std::unique_ptr<Kernel> make_broadcast(ByTarget one, int target_cells) {
-    return std::make_unique<Broadcast>(std::move(one), target_cells);
+std::unique_ptr<Kernel> make_broadcast(ByTarget one, int target_cells, std::vector<int> targets) {
+    return std::make_unique<Broadcast>(std::move(one), target_cells, std::move(targets));
 }
 
 std::unique_ptr<Kernel> make_broadcast(const ByTarget& s) {

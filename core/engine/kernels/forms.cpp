@@ -45,16 +45,17 @@ std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, GroupShape 
     return make_list(std::move(sorted));
 }
 
-std::unique_ptr<Kernel> make_kernel(const connectivity::Regular& regular, int source_cells,
-                                    int target_cells) {
+std::unique_ptr<Kernel> make_kernel(const connectivity::Regular& regular, int target_cells) {
     const auto& first = regular.taps.front();
     const double factor = regular.reference - first.attenuation;
     if (regular.all_to_all) {
-        ByTarget one{{0, source_cells}, std::vector<int>(source_cells), {}, {}};
-        std::iota(one.pre.begin(), one.pre.end(), 0);
-        one.delay.assign(source_cells, first.delay);
-        one.factor.assign(source_cells, factor);
-        return make_broadcast(std::move(one), target_cells);
+        const auto n = regular.sources.size();
+        ByTarget one{{0, static_cast<int>(n)}, regular.sources, {}, {}};
+        one.delay.assign(n, first.delay);
+        one.factor.assign(n, factor);
+        const bool everywhere = std::ssize(regular.targets) == target_cells;
+        return make_broadcast(std::move(one), target_cells,
+                              everywhere ? std::vector<int>() : regular.targets);
     }
     if (regular.taps.size() == 1 && first.dx == 0 && first.dy == 0)
         return make_one_to_one(target_cells, first.delay, factor);

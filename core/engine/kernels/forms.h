@@ -28,7 +28,7 @@ enum class Forms {
 std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, GroupShape source, GroupShape target,
                                     Forms forms);
 /// Makes a kernel for a connection that is the same everywhere, and whose synapses multiply by a constant.
-std::unique_ptr<Kernel> make_kernel(const connectivity::Regular& regular, int source_cells, int target_cells);
+std::unique_ptr<Kernel> make_kernel(const connectivity::Regular& regular, int target_cells);
 /// Makes a kernel for synapses with an update(), and reserves room for their states. `reads_states` says that
 /// PlasticKernel::state() will be called.
 std::unique_ptr<PlasticKernel> make_plastic(connectivity::Synapses synapses, GroupShape source,
@@ -40,7 +40,9 @@ std::unique_ptr<PlasticKernel> make_plastic(connectivity::Synapses synapses, Gro
 
 std::unique_ptr<Kernel> make_one_to_one(int cells, int delay, double factor);
 std::unique_ptr<Kernel> make_one_to_one(const ByTarget& synapses, int source_cells);
-std::unique_ptr<Kernel> make_broadcast(ByTarget synapses_of_one, int target_cells);
+/// `targets` are the cells with synapses; when it is empty, all have them.
+std::unique_ptr<Kernel> make_broadcast(ByTarget synapses_of_one, int target_cells,
+                                       std::vector<int> targets = {});
 std::unique_ptr<Kernel> make_broadcast(const ByTarget& synapses);
 std::unique_ptr<Kernel> make_window(const connectivity::Regular& window);
 std::unique_ptr<Kernel> make_by_source(const ByTarget& synapses, GroupShape source, GroupShape target);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/exception_message.h"
+#include "core/connectivity/warn.h"
 #include "core/model/validate.h"
 
 namespace forage::engine {
@@ -190,8 +191,7 @@ class Compiler {
         if (plan.pruned) return true;
         lengthen(c, plan);
         if (!budget_.exceeded())
-            plan.kernel = make_kernel(*regular, static_cast<int>(plan_->groups[plan.source].cells),
-                                      static_cast<int>(plan_->groups[plan.target].cells));
+            plan.kernel = make_kernel(*regular, static_cast<int>(plan_->groups[plan.target].cells));
         return true;
     }
 
@@ -200,6 +200,8 @@ class Compiler {
         auto synapses = connectivity::connect(c, topology_of(plan.source), topology_of(plan.target),
                                               options_.seed, diagnostics_);
         if (synapses.size() == 0) return;
+        connectivity::warn_of_wiring(c, *order_.groups[plan.source], *order_.groups[plan.target], synapses,
+                                     diagnostics_);
         synapses.distance = std::vector<double>();  // attenuation and delay say it all
         plan.synapses = synapses.size();
         plan.longest_delay = *std::max_element(synapses.delay.begin(), synapses.delay.end());

@@ -139,7 +139,7 @@ Pattern pattern_from(const json& pattern) {
     const auto name = pattern.at("form").get<std::string>();
     if (name == "mapped")
         return MappedPattern{pattern.value("mapping", "center") == "all", population_from(pattern, "source"),
-                             population_from(pattern, "target")};
+                             population_from(pattern, "target"), pattern.contains("mapping")};
     if (name == "foreach")
         return ForeachPattern{population_from(pattern, "source"), population_from(pattern, "target")};
     if (name != "tuples") no_form("a pattern", name);

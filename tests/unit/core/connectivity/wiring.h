@@ -37,7 +37,7 @@ struct Wiring {
     model::Arborization arborization;
     model::DistanceFunction attenuation, delay;
     std::uint64_t seed = 1;
-    double most = most_synapses;
+    std::size_t most = most_synapses;
     bool lenient = false;
 
     Built build() const {

@@ -209,6 +209,16 @@ TEST_CASE("A linked process is read from its file, with its connections, and wri
 
 TEST_CASE("Mistakes in a linked process are reported with its file") {
     const Folder folder;
+}
+
+TEST_CASE("A projection that its file states stays stated") {
+    model::System s = system_of(small_system);
+    auto& c = s.connections[0];
+    c.terse = true, c.pattern = model::MappedPattern{};
+    CHECK(xml::write_system(s).find("<PatternMapped") == std::string::npos);
+    std::get<model::MappedPattern>(c.pattern).is_stated = true;
+    const auto again = system_of(xml::write_system(s));
+    CHECK(std::get<model::MappedPattern>(again.connections[0].pattern).is_stated);
     const auto say = [&](const std::string& file) {
         Diagnostics diagnostics;
         CHECK_FALSE(xml::read_system(file, diagnostics));
