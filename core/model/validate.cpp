@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -63,6 +64,7 @@ class Validator {
 
     void run() {
         unique_ids();
+        count_lost_ids();
         ambiguous_paths();
         for (const auto& process : system_.processes) {
             scope_ = &process;
@@ -89,11 +91,15 @@ class Validator {
                 return out_.error(at, fmt::format("the id of this {} is empty", what),
                                   "give it one that nothing else in the file has");
             const auto [it, fresh] = seen.emplace(id, &at);
-            if (!fresh)
-                out_.error(at,
-                           fmt::format("the id '{}' of this {} is already used on line {}", id, what,
-                                       it->second->line),
-                           "ids are unique over the whole file");
+            if (fresh) return;
+            ++repeated_ids_;
+            const auto& first = *it->second;
+            const bool same_file = !first.file || !at.file || first.file->path == at.file->path;
+            out_.error(at,
+                       fmt::format("the id '{}' of this {} is already used {}on line {}", id, what,
+                                   same_file ? "" : fmt::format("in '{}' ", first.file->path), first.line),
+                       same_file ? "ids are unique over the whole file"
+                                 : "ids are unique over a system and the files of its linked processes");
         };
         for (const auto& p : system_.processes) {
             see(p.id, p.at, "process");
@@ -102,6 +108,20 @@ class Validator {
         }
         for (const auto& c : system_.canvas_comments) see(c.id, c.at, "comment");
         for (const auto& c : system_.connections) see(c.id, c.at, "connection");
+    }
+
+    /// When ids are repeated, references to others may lead nowhere for that reason only.
+    void count_lost_ids() {
+        std::set<std::string_view> lost;
+        const auto look = [&](const std::string& id) {
+            if (!id.empty() && !groups_.find(id).group) lost.insert(id);
+        };
+        for (const auto& c : system_.connections) look(c.source), look(c.target);
+        for (const auto& p : system_.processes)
+            if (p.module)
+                for (const auto* references : {&p.module->inputs, &p.module->outputs})
+                    for (const auto& r : *references) look(r.target);
+        follows_from_repeated_ = std::ssize(lost) <= repeated_ids_;
     }
 
     void ambiguous_paths() {
@@ -321,7 +341,7 @@ class Validator {
                     r.at, fmt::format("{} has no cross reference '{}' in {}", use.type, r.name, holder),
                     known.empty() ? fmt::format("it has none in {}", holder) : suggest(r.name, known));
             }
-            if (!r.target.empty() && !groups_.find(r.target).group)
+            if (!r.target.empty() && !groups_.find(r.target).group && !follows_from_repeated_)
                 out_.error(r.at,
                            fmt::format("cross reference '{}' leads to '{}', which is not the id of a group",
                                        r.name, r.target),
@@ -472,7 +492,7 @@ class Validator {
 
     const Group* end(const Connection& c, const std::string& id, const Location& at, std::string_view which) {
         const Group* group = groups_.find(id).group;
-        if (!group)
+        if (!group && !follows_from_repeated_)
             out_.error(
                 at, fmt::format("the {} '{}' of connection '{}' is not the id of a group", which, id, c.name),
                 near_id(id));
@@ -534,6 +554,8 @@ class Validator {
     Constants constants_;
     const Process* scope_ = nullptr;  ///< whose constants hold in the item that is checked
     int found_by_modules_ = 0;        ///< errors
+    int repeated_ids_ = 0;
+    bool follows_from_repeated_ = false;  ///< whether references to unknown ids follow from repeated ones
     struct Unusual {
         Location where;
         std::string message, hint;

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/separated.h"
 #include "core/model/constants.h"
 #include "core/model/lookup.h"
 #include "core/xml/canvas.h"
@@ -267,6 +268,59 @@ class Reader {
     std::map<Element, std::vector<CanvasPart>> canvas_;  ///< by the element in which they stand
 };
 
+/// "'a', 'b', 'c' and 4 more"
+std::string some_of(const std::vector<std::string>& ids) {
+    constexpr std::size_t shown = 6;
+    const std::vector<std::string> some(
+        ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(std::min(ids.size(), shown)));
+    return fmt::format("'{}'{}", separated(some, "', '"),
+                       ids.size() > shown ? fmt::format(" and {} more", ids.size() - shown) : "");
+}
+
+/// Reports a file that two processes link, whose ids would not be unique. Returns whether it did.
+bool report_second_link(const model::Process& place, const std::string& file, const model::System& system,
+                        Diagnostics& out) {
+    for (const auto& first : system.processes) {
+        std::error_code ignored;
+        if (!first.linked() ||
+            !std::filesystem::equivalent(model::resolved(first.path, first.path_at), file, ignored))
+            continue;
+        std::vector<std::string> ids{first.id};
+        for (const auto& g : first.groups) ids.push_back(g.id);
+        for (const auto& c : system.connections)
+            if (c.linked && c.at.file && first.at.file && c.at.file->path == first.at.file->path)
+                ids.push_back(c.id);
+        out.error(
+            place.path_at,
+            fmt::format("process '{}' is linked to '{}', as process '{}' on line {} is: the ids {} would "
+                        "occur twice",
+                        model::trim(place.name), place.path, model::trim(first.placeholder.front().name),
+                        first.path_at.line, some_of(ids)),
+            "a system links a file once; 'forage convert SYSTEM.iqr COPY.iqr --import FILE' adds a copy "
+            "with new ids");
+        return true;
+    }
+    return false;
+}
+
+/// Warns when the element that links a file says something that the file says otherwise.
+void warn_of_ignored_names(const model::Process& place, const model::Process& content, Diagnostics& out) {
+    std::vector<std::string> ignored, used;
+    const auto compare = [&](const char* what, const std::string& here, const std::string& there) {
+        if (here.empty() || model::trim(here) == model::trim(there)) return;
+        ignored.push_back(fmt::format("{} '{}'", what, model::trim(here)));
+        used.push_back(fmt::format("{} '{}'", what, model::trim(there)));
+    };
+    compare("id", place.id, content.id), compare("name", place.name, content.name);
+    if (ignored.empty()) return;
+    out.warning(
+        place.at,
+        fmt::format("the {} of this process {} ignored, as in iqr: the linked file '{}' gives it the {}",
+                    separated(ignored, " and the "), ignored.size() > 1 ? "are" : "is", place.path,
+                    separated(used, " and the ")),
+        "write the same here as in the file");
+}
+
 /// Reads the file of a linked process, which replaces the process in the system's own file.
 void link(model::Process& place, model::System& system, Diagnostics& out) {
     const auto file = model::resolved(place.path, place.path_at);
@@ -279,6 +333,7 @@ void link(model::Process& place, model::System& system, Diagnostics& out) {
                         file));
         return;
     }
+    if (report_second_link(place, file, system, out)) return;
     auto content = read_process(file, out);
     if (!content) return;
     if (!content->process.path.empty()) {
@@ -286,6 +341,7 @@ void link(model::Process& place, model::System& system, Diagnostics& out) {
                   "a linked process cannot lead to another file: empty 'path'");
         return;
     }
+    warn_of_ignored_names(place, content->process, out);
     content->process.path = place.path;
     content->process.path_at = place.path_at;
     if (place.icon) content->process.icon = place.icon;

@@ -182,6 +182,10 @@ TEST_CASE("A linked process is read from its file, with its connections, and wri
     const auto s = xml::read_system(file, diagnostics);
     INFO(format(diagnostics));
     REQUIRE(s);
+    REQUIRE(diagnostics.all().size() == 1);
+    CHECK(diagnostics.all()[0].message ==
+          "the name 'placeholder' of this process is ignored, as in iqr: the linked file 'brain.iqrProcess' "
+          "gives it the name 'P'");
     REQUIRE(s->processes.size() == 1);
     CHECK(s->processes[0].name == "P");
     CHECK(s->processes[0].groups.size() == 2);
@@ -207,10 +211,6 @@ TEST_CASE("A linked process is read from its file, with its connections, and wri
     CHECK(xml::write_system(embedded).find("<Connection") != std::string::npos);
 }
 
-TEST_CASE("Mistakes in a linked process are reported with its file") {
-    const Folder folder;
-}
-
 TEST_CASE("A projection that its file states stays stated") {
     model::System s = system_of(small_system);
     auto& c = s.connections[0];
@@ -219,6 +219,10 @@ TEST_CASE("A projection that its file states stays stated") {
     std::get<model::MappedPattern>(c.pattern).is_stated = true;
     const auto again = system_of(xml::write_system(s));
     CHECK(std::get<model::MappedPattern>(again.connections[0].pattern).is_stated);
+}
+
+TEST_CASE("Mistakes in a linked process are reported with its file") {
+    const Folder folder;
     const auto say = [&](const std::string& file) {
         Diagnostics diagnostics;
         CHECK_FALSE(xml::read_system(file, diagnostics));
