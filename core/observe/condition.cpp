@@ -1,6 +1,8 @@
 #include "core/observe/condition.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
 
 #include <fmt/format.h>
@@ -119,3 +121,28 @@ std::optional<Quantity> parse_quantity(const engine::Layout& layout, bool trials
 }
 
 }  // namespace forage::observe
+std::optional<Condition::Begin> Condition::begin(const Node& n, double seconds_per_cycle) const {
+    using Operator = expression::Condition::Operator;
+    if (n.op == Operator::both || n.op == Operator::either) {
+        const auto a = begin(nodes_[n.first], seconds_per_cycle),
+                   b = begin(nodes_[n.second], seconds_per_cycle);
+        if (!a || !b || a->in_trials != b->in_trials) return std::nullopt;
+        return Begin{a->in_trials,
+                     n.op == Operator::both ? std::max(a->first, b->first) : std::min(a->first, b->first)};
+    }
+    const bool turned = n.op == Operator::less || n.op == Operator::at_most;
+    if (!turned && n.op != Operator::more && n.op != Operator::at_least) return std::nullopt;
+    const Quantity &time = quantities_[turned ? n.second : n.first],
+                   &bound = quantities_[turned ? n.first : n.second];
+    if (bound.kind != Quantity::Kind::number) return std::nullopt;
+    double from = bound.value;
+    if (time.kind == Quantity::Kind::seconds)
+        from /= seconds_per_cycle;
+    else if (time.kind != Quantity::Kind::cycle && time.kind != Quantity::Kind::trial)
+        return std::nullopt;
+    constexpr double rounding = 1e-9;  // of a number of cycles
+    const bool later = n.op == Operator::more || n.op == Operator::less;
+    return Begin{time.kind == Quantity::Kind::trial,
+                 later ? std::floor(from + rounding) + 1 : std::ceil(from - rounding)};
+}
+

@@ -33,39 +33,39 @@ void Manipulation::after_groups(RunView& run) {
 }
 
 void Manipulation::apply(RunView& run, const std::vector<double>& pattern) {
-    if (!s_.cells.empty()) return clamp_cells(run, pattern);
+    if (s_.mode == Mode::clamp) return clamp(run, pattern);
     const ConstColumn values(pattern.data(), static_cast<Index>(pattern.size()));
     Column activity = run.simulation.output(s_.group);
-    switch (s_.mode) {
-        case Mode::clamp:
-            activity = values;
-            break;
-        case Mode::add:
-            activity += values;
-            break;
-        case Mode::multiply:
-            activity *= values;
-            break;
-    }
+    if (s_.mode == Mode::add)
+        activity += values;
+    else
+        activity *= values;
 }
 
-void Manipulation::clamp_cells(RunView& run, const std::vector<double>& pattern) {
+void Manipulation::clamp(RunView& run, const std::vector<double>& pattern) {
     const auto cycle = static_cast<std::uint64_t>(run.time.cycle);
+    const auto refuse = [&](const std::string& what) {
+        throw std::runtime_error(
+            fmt::format("two clamps set {} '{}' in cycle {}", what,
+                        run.simulation.layout().groups[static_cast<std::size_t>(s_.group)].path, cycle));
+    };
     Column activity = run.simulation.output(s_.group);
     bool first = true;
     for (const auto* m = earlier_; m; m = m->earlier_) {
         if (m->applied_ != cycle) continue;
         first = false;
+        if (s_.cells.empty() || m->s_.cells.empty()) refuse("group");
         std::vector<int> both;
         std::ranges::set_intersection(s_.cells, m->s_.cells, std::back_inserter(both));
-        if (!both.empty())
-            throw std::runtime_error(
-                fmt::format("two clamps set cell {} of group '{}' in cycle {}", both.front() + 1,
-                            run.simulation.layout().groups[static_cast<std::size_t>(s_.group)].path, cycle));
+        if (!both.empty()) refuse(fmt::format("cell {} of group", both.front() + 1));
+    }
+    applied_ = cycle;
+    if (s_.cells.empty()) {
+        activity = ConstColumn(pattern.data(), static_cast<Index>(pattern.size()));
+        return;
     }
     if (first) activity = 0.0;
     for (const int cell : s_.cells) activity[cell] = pattern[static_cast<std::size_t>(cell)];
-    applied_ = cycle;
 }
 
 void Manipulation::declare(engine::Demand& out) const {

@@ -43,8 +43,8 @@ class Manipulation final : public Observer {
         }
     };
     explicit Manipulation(Settings settings);
-    /// Makes this clamp of cells act together with an earlier one of the same group: cells that neither sets
-    /// are 0. after_groups() throws std::runtime_error when both set a cell in the same cycle.
+    /// Makes this clamp act together with an earlier one of the same group: cells that neither sets are 0.
+    /// after_groups() throws std::runtime_error when both set a cell in the same cycle.
     void join(const Manipulation& earlier) { earlier_ = &earlier; }
     const Settings& settings() const { return s_; }
 
@@ -56,7 +56,7 @@ class Manipulation final : public Observer {
 
   private:
     void apply(RunView& run, const std::vector<double>& pattern);
-    void clamp_cells(RunView& run, const std::vector<double>& pattern);
+    void clamp(RunView& run, const std::vector<double>& pattern);
 
     Settings s_;
     bool begun_ = false, over_ = false;
@@ -64,7 +64,7 @@ class Manipulation final : public Observer {
     std::size_t next_ = 0;  ///< position in playback; with `starts`, the number of patterns that have begun
     std::uint64_t played_ = 0;  ///< how often the list was played to its end
     const Manipulation* earlier_ = nullptr;
-    std::optional<std::uint64_t> applied_;  ///< the cycle in which it has last clamped cells
+    std::optional<std::uint64_t> applied_;  ///< the cycle in which it has last clamped
 };
 
 }  // namespace forage::observe

@@ -19,8 +19,9 @@ using Settings = Manipulation::Settings;
 
 class ManipulationReader {
   public:
-    ManipulationReader(const engine::Layout& layout, bool trials, Diagnostics& diagnostics)
-        : layout_(layout), trials_(trials), diagnostics_(diagnostics) {}
+    ManipulationReader(const engine::Layout& layout, bool trials, const KnownLength& length,
+                       Diagnostics& diagnostics)
+        : layout_(layout), trials_(trials), length_(length), diagnostics_(diagnostics) {}
 
     void add(const Spec& spec) {
         static constexpr const char* names[] = {"clamp", "add", "multiply"};
@@ -45,17 +46,22 @@ class ManipulationReader {
             return std::pair(a.spec->mode, a.rows.empty()) < std::pair(b.spec->mode, b.rows.empty());
         });
         std::vector<std::unique_ptr<Manipulation>> out;
-        for (auto& m : made_) {
-            std::ranges::stable_sort(m.rows, {}, &Row::first);
-            for (auto& [start, values] : m.rows) {
-                m.settings.starts.push_back(start);
-                m.settings.patterns.push_back(std::move(values));
+        for (auto m = made_.begin(); m != made_.end(); ++m) {
+            std::ranges::stable_sort(m->rows, {}, &Row::first);
+            for (auto& [start, values] : m->rows) {
+                m->settings.starts.push_back(start);
+                m->settings.patterns.push_back(std::move(values));
             }
+            warn_if_never(*m);
+            const auto clashes = [&](const Made& earlier) { return of_one_group(earlier, *m); };
+            if (const auto other = std::find_if(made_.begin(), m, clashes); other != m)
+                report_overlap(*other, *m);
+        }
+        for (auto& m : made_) {
             auto made = std::make_unique<Manipulation>(std::move(m.settings));
-            if (!made->settings().cells.empty())
+            if (made->settings().mode == Manipulation::Mode::clamp)
                 for (auto it = out.rbegin(); it != out.rend(); ++it)
-                    if ((*it)->settings().group == made->settings().group &&
-                        !(*it)->settings().cells.empty()) {
+                    if ((*it)->settings().group == made->settings().group) {
                         made->join(**it);
                         break;
                     }
@@ -76,6 +82,53 @@ class ManipulationReader {
     std::optional<Condition> condition(const model::Expression& when) {
         if (when.empty()) return std::nullopt;
         return parse_condition(layout_, trials_, when.text, what(when.at), diagnostics_, when.at);
+    }
+
+    void warn_if_never(const Made& m) {
+        const auto why = why_never(m.settings, length_);
+        if (why.empty()) return;
+        const auto& at = m.spec->from.empty() ? m.spec->until.at : m.spec->from.at;
+        diagnostics_.warning(at, fmt::format("{}: it never acts: {}", described(*m.spec), why),
+                             "cycles and seconds are counted from 0, trials from 1");
+    }
+
+    /// "--clamp 'P/A=1'", or "clamp of 'P/A'" in a file
+    std::string described(const Spec& spec) const {
+        static constexpr const char* names[] = {"clamp", "add", "multiply"};
+        const std::string mode = names[static_cast<int>(spec.mode)];
+        if (!spec.text.empty()) return fmt::format("--{} '{}'", mode, spec.text);
+        const bool is_table = !spec.table.empty();
+        return fmt::format("{} of '{}'", mode, is_table ? spec.table.text : spec.group.text);
+    }
+
+    bool act_together(const Made& a, const Made& b) const {
+        return observe::act_together(a.settings, b.settings,
+                                     !a.spec->from.empty() && a.spec->from.text == b.spec->from.text,
+                                     length_.seconds_per_cycle);
+    }
+
+    /// Whether two clamps, at least one of them of all cells of a group, certainly act together.
+    bool of_one_group(const Made& a, const Made& b) const {
+        return a.settings.mode == Manipulation::Mode::clamp && b.settings.mode == a.settings.mode &&
+               a.settings.group == b.settings.group &&
+               (a.settings.cells.empty() || b.settings.cells.empty()) && act_together(a, b);
+    }
+
+    static constexpr const char* separate =
+        "keep one of them, or give them times that do not overlap: '...; until cycle 10' and '...; from "
+        "cycle 10'";
+
+    void report_overlap(const Made& first, const Made& second) {
+        const auto all = [](const Made& m) {
+            return m.settings.cells.empty() ? "all cells of it" : "cells of it";
+        };
+        const auto& at = second.spec->table.empty() ? second.spec->group.at : second.spec->table.at;
+        diagnostics_.error(
+            at,
+            fmt::format("{}: group '{}' is clamped twice at the same time: {} sets {}, this one {}",
+                        described(*second.spec), layout_.groups[second.settings.group].path,
+                        described(*first.spec), all(first), all(second)),
+            separate);
     }
 
     /// The column of a group's activity.
@@ -128,7 +181,8 @@ class ManipulationReader {
         const expression::Context context{spec.cells.text, option, diagnostics_, spec.cells.at};
         const auto cells = context.parsed(&expression::parse_cell_values);
         if (!cells) return;
-        auto& own = find_same(spec, std::move(settings)).settings;
+        auto& made = find_same(spec, std::move(settings));
+        auto& own = made.settings;
         if (own.patterns.empty())
             own.patterns.emplace_back(static_cast<std::size_t>(layout_.groups[column.group].shape.cells),
                                       spec.mode == Spec::Mode::multiply ? 1 : 0);
@@ -138,25 +192,18 @@ class ManipulationReader {
             const auto cell = static_cast<int>(part->numbers.front());
             own.patterns.front()[part->numbers.front()] = value;
             if (spec.mode != Spec::Mode::clamp) continue;
-            if (is_clamped(spec, own, cell))
-                diagnostics_.error(
-                    spec.cells.at,
-                    fmt::format("{}: '{}' is clamped twice at the same time", option, source.text()),
-                    "keep one of them, or give them times that do not overlap: '...; until "
-                    "cycle 10' and '...; from cycle 10'");
+            const auto clashes = [&](const Made& other) {
+                return other.settings.group == own.group && other.settings.mode == own.mode &&
+                       std::ranges::binary_search(other.settings.cells, cell) &&
+                       (&other == &made || act_together(other, made));
+            };
+            if (std::ranges::any_of(made_, clashes))
+                diagnostics_.error(spec.cells.at,
+                                   fmt::format("{}: '{}{}' is clamped twice at the same time", option,
+                                               spec.group.text, source.text()),
+                                   separate);
             own.cells.insert(std::ranges::lower_bound(own.cells, cell), cell);
         }
-    }
-
-    /// Whether another clamp of the cell is in force whenever this one is, as far as their times tell.
-    bool is_clamped(const Spec& spec, const Settings& own, int cell) const {
-        const auto always = [](const Spec& s) {
-            return s.from.text.empty() && s.until.text.empty() && s.every == 1 && !s.times;
-        };
-        return std::ranges::any_of(made_, [&](const Made& m) {
-            return m.settings.group == own.group && std::ranges::binary_search(m.settings.cells, cell) &&
-                   (&m.settings == &own || always(*m.spec) || always(spec));
-        });
     }
 
     void add_table(const Spec& spec, const Settings& settings) {
@@ -209,6 +256,7 @@ class ManipulationReader {
 
     const engine::Layout& layout_;
     bool trials_;
+    KnownLength length_;
     Diagnostics& diagnostics_;
     std::string mode_;
     std::vector<Made> made_;
@@ -218,8 +266,9 @@ class ManipulationReader {
 
 std::vector<std::unique_ptr<Manipulation>> make_manipulations(const std::vector<Spec>& specs,
                                                               const engine::Layout& layout, bool trials,
-                                                              Diagnostics& diagnostics) {
-    ManipulationReader reader(layout, trials, diagnostics);
+                                                              Diagnostics& diagnostics,
+                                                              const KnownLength& length) {
+    ManipulationReader reader(layout, trials, length, diagnostics);
     for (const auto& spec : specs) reader.add(spec);
     return reader.made();
 }

@@ -52,7 +52,7 @@ SOUND = [
     ["check", "part.iqrProcess"],
     ["convert", "system.iqr", "out.iqr", "--import", "part.iqrProcess"],
     ["check", "learning.iqr", "--set", "Adaptive.read=true", "--set", "Adaptive.File Name=weights.weights"],
-    ["run", "system.iqr", "--cycles", "5", "-o", "out", "--clamp", "table.csv", "--clamp", "P/A=patterns.txt", "--record", "P/A"],
+    ["run", "system.iqr", "--cycles", "5", "-o", "out", "--clamp", "table.csv", "--add", "P/A=patterns.txt", "--record", "P/A"],
     ["run", "replay.iqr", "--cycles", "5", "-o", "out", "--replay", "table.csv"],
     ["experiment", "experiment.xml", "-o", "out"],
 ]

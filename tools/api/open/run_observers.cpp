@@ -54,8 +54,11 @@ void add_measures(Preparation& p) {
 }
 
 void add_manipulations(Preparation& p) {
+    observe::KnownLength length{p.run().seconds_per_cycle()};
+    if (const auto cycles = p.prepared.stop.cycles()) length.cycles = static_cast<double>(*cycles);
+    if (const auto& trials = p.spec().length.trials) length.trials = static_cast<double>(*trials);
     for (auto& m : observe::make_manipulations(p.spec().manipulations, p.run().layout(), p.run().has_trials(),
-                                               p.diagnostics))
+                                               p.diagnostics, length))
         p.run().add(std::move(m));
 }
 

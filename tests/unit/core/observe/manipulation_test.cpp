@@ -87,10 +87,11 @@ TEST_CASE("Clamps of cells of one group that are in force act together; the othe
         std::vector<model::ManipulationSpec> specs;
         for (const auto& text : clamps)
             specs.push_back(expression::parse_manipulation(model::ManipulationSpec::Mode::clamp, text));
-        for (auto& m : observe::make_manipulations(specs, run.layout(), false, diagnostics))
+        for (auto& m : observe::make_manipulations(specs, run.layout(), false, diagnostics, {0.04, 20}))
             run.add(std::move(m));
         if (said)
             for (const auto& d : diagnostics.all()) *said += d.message + "\n";
+        if (diagnostics.failed()) return std::vector<double>();
         const auto& a = run.record("P/A");
         for (int t = 0; t < 4; ++t) run.step();
         std::vector<double> out;
@@ -106,6 +107,37 @@ TEST_CASE("Clamps of cells of one group that are in force act together; the othe
     std::string said;
     played_by({"P/A(1,1)=5", "P/A(2,1)=6", "P/A(1,1)=7"}, &said);
     CHECK_THAT(said, Catch::Contains("is clamped twice at the same time"));
-    CHECK_THROWS_WITH(played_by({"P/A(1,1)=5; until cycle 3", "P/A(1,1)=7; from cycle 1"}),
+    const auto refused = [&](const std::vector<std::string>& clamps) {
+        std::string text;
+        return played_by(clamps, &text).empty() ? text : "";
+    };
+    CHECK_THAT(refused({"P/A(1,1)=5; until cycle 3", "P/A(1,1)=7; from cycle 1"}),
+               Catch::Contains("'P/A(1,1)' is clamped twice at the same time"));
+    CHECK_THAT(refused({"P/A(1,1)=5; until 0.12 s", "P/A(1,1)=7; from cycle 2"}), Catch::Contains("twice"));
+    CHECK(refused({"P/A(1,1)=5; until 0.12 s", "P/A(1,1)=7; from cycle 3"}).empty());
+    CHECK_THAT(refused({"P/A=5", "P/A(1,1)=7; from cycle 2"}), Catch::Contains("sets all cells of it"));
+    CHECK_THAT(refused({"P/A(1,1)=7; from cycle 2", "P/A=5; until cycle 3"}), Catch::Contains("twice"));
+    CHECK_THAT(refused({"P/A=5; until cycle 3", "P/A=6; from cycle 2"}), Catch::Contains("twice"));
+    CHECK_THAT(refused({"P/A=5; every 2", "P/A=6; every 3; from cycle 1"}), Catch::Contains("twice"));
+    CHECK_THAT(refused({"P/A=5; from max(P/A) > 3", "P/A=6; from max(P/A) > 3"}), Catch::Contains("twice"));
+    CHECK(played_by({"P/A=5; every 2", "P/A=6; every 2; from cycle 1"}) == V{555, 666, 555, 666});
+    CHECK(played_by({"P/A=5; until cycle 2", "P/A(1,1)=7; from cycle 2"}) == V{555, 555, 700, 700});
+    CHECK(played_by({"P/A=5; times 1", "P/A(1,1)=7; from cycle 2"}) == V{555, 111, 700, 700});
+    // When conditions do not tell the time, the run does.
+    CHECK_THROWS_WITH(played_by({"P/A(1,1)=5; until cycle 3", "P/A(1,1)=7; from max(P/A) > 3"}),
                       "two clamps set cell 1 of group 'P/A' in cycle 1");
+    CHECK_THROWS_WITH(played_by({"P/A=5; until cycle 3", "P/A(1,1)=7; from max(P/A) > 3"}),
+                      "two clamps set group 'P/A' in cycle 1");
+    const auto warned = [&](const std::string& clamp) {
+        std::string text;
+        played_by({clamp}, &text);
+        return text;
+    };
+    CHECK_THAT(warned("P/A=5; from cycle 20"),
+               Catch::Contains("it begins in cycle 20, and the run ends after 20 cycles"));
+    CHECK_THAT(warned("P/A(1,1)=5; from 3 s"), Catch::Contains("it never acts: it begins in cycle 75"));
+    CHECK_THAT(warned("P/A=5; from cycle 3; until cycle 3"), Catch::Contains("it ends before it begins"));
+    CHECK_THAT(warned("P/A=5; until cycle 0"), Catch::Contains("it ends before it begins"));
+    CHECK(warned("P/A=5; from cycle 19").empty());
+    CHECK(warned("P/A=5; from max(P/A) > 3; until cycle 3").empty());
 }
