@@ -11,6 +11,7 @@
 #include "core/base/separated.h"
 #include "core/model/lookup.h"
 #include "core/model/validate.h"
+#include "core/observe/manipulation.h"
 
 namespace forage {
 namespace {
@@ -67,8 +68,9 @@ bool reads_input(const NeuronType& type) {
 
 class Explainer {
   public:
-    Explainer(const model::System& system, const Layout& layout, const observe::GroupStatistics& statistics)
-        : layout_(layout), seen_(statistics.groups()), wiring_(system, layout) {
+    Explainer(const model::System& system, const Layout& layout, const observe::GroupStatistics& statistics,
+              const std::set<int>& manipulated)
+        : layout_(layout), seen_(statistics.groups()), manipulated_(manipulated), wiring_(system, layout) {
         for (const auto& p : system.processes)
             for (const auto& g : p.groups) uses_[g.id] = &g.neuron;
     }
@@ -83,7 +85,8 @@ class Explainer {
                     break;
                 }
         for (std::size_t g = 0; g < layout_.groups.size(); ++g) {
-            if (silent(g) && !explained[g] && is_first(g) && wiring_.groups[g].driven())
+            if (silent(g) && !explained[g] && is_first(g) &&
+                (wiring_.groups[g].driven() || is_manipulated(g)))
                 out.push_back(fmt::format("{} was silent: {}", name(g), why_silent(g)));
             if (auto text = clipped(g); !text.empty()) out.push_back(text);
         }
@@ -97,6 +100,7 @@ class Explainer {
         return seen_[g].states[at(layout_.groups[g].type.output())];
     }
     bool silent(std::size_t g) const { return activity(g).silent(); }
+    bool is_manipulated(std::size_t g) const { return manipulated_.contains(static_cast<int>(g)); }
     const Spread* state(std::size_t g, std::string_view state_name) const {
         const auto& states = layout_.groups[g].type.states;
         for (std::size_t s = 0; s < states.size(); ++s)
@@ -128,11 +132,30 @@ class Explainer {
     /// Whether the silence of a group is not explained by the silence of all its sources.
     bool is_first(std::size_t g) const {
         const auto from = sources(g);
-        return from.empty() || std::ranges::any_of(from, [&](auto s) { return !silent(s); }) ||
+        return from.empty() || is_manipulated(g) ||
+               std::ranges::any_of(from, [&](auto s) { return !silent(s); }) ||
                !wiring_.groups[g].writers.empty();
     }
 
+    /// "; modulation was 0.3 on average", of a group with modulatory connections; else empty
+    std::string modulation(std::size_t g) const {
+        const auto is_modulatory = [&](int c) {
+            return layout_.connections[at(c)].kind == InputKind::modulatory;
+        };
+        if (std::ranges::none_of(wiring_.groups[g].incoming, is_modulatory)) return {};
+        const Spread& spread = seen_[g].inputs[number_of(InputKind::modulatory)];
+        return spread.silent()
+                   ? "; its modulation was 0 in every cycle"
+                   : fmt::format("; its modulation was {} on average, {} to {}", readable(spread.mean()),
+                                 readable(spread.least), readable(spread.most));
+    }
+
     std::string why_silent(std::size_t g) const {
+        if (is_manipulated(g)) return "its activity is set or changed by --clamp, --add or --multiply";
+        return why_quiet(g) + (wiring_.groups[g].driven() ? modulation(g) : "");
+    }
+
+    std::string why_quiet(std::size_t g) const {
         const auto& type = layout_.groups[g].type;
         const auto& wires = wiring_.groups[g];
         const auto& inputs = seen_[g].inputs;
@@ -176,7 +199,10 @@ class Explainer {
                                     readable(excitation.mean()), readable(inhibition.mean()));
             return text;
         }
-        if (inhibition.mean() >= excitation.mean())
+        if (readable(inhibition.mean()) == readable(excitation.mean()))
+            return fmt::format("inhibition is as strong as excitation: {} on average",
+                               readable(inhibition.mean()));
+        if (inhibition.mean() > excitation.mean())
             return fmt::format("inhibition ({} on average) outweighs excitation ({})",
                                readable(inhibition.mean()), readable(excitation.mean()));
         return fmt::format("its input ({} on average) is not enough for {}", readable(excitation.mean()),
@@ -240,13 +266,15 @@ class Explainer {
 
     const Layout& layout_;
     const std::vector<observe::GroupStatistics::Group>& seen_;
+    const std::set<int>& manipulated_;  ///< groups
     Wiring wiring_;
     std::map<std::string, const model::TypeUse*> uses_;  ///< by the group's id
 };
 
 }  // namespace
 
-std::vector<std::string> wiring_notes(const model::System& system, const Layout& layout) {
+std::vector<std::string> wiring_notes(const model::System& system, const Layout& layout,
+                                      const std::set<int>& manipulated) {
     std::vector<std::string> out;
     const Wiring wiring(system, layout);
     for (const auto& p : system.processes)
@@ -256,6 +284,7 @@ std::vector<std::string> wiring_notes(const model::System& system, const Layout&
         const auto& about = layout.groups[g];
         const auto& wires = wiring.groups[g];
         const bool used = wires.has_targets || !wires.readers.empty();
+        if (manipulated.contains(static_cast<int>(g))) continue;
         if (wires.driven() || !wires.ignored.empty() || !wires.disabled.empty()) continue;
         if (!used)
             out.push_back(
@@ -296,8 +325,12 @@ std::string activity_table(const Layout& layout, const observe::GroupStatistics&
 std::vector<std::string> explanation(const PreparedRun& prepared) {
     const Run& run = prepared.run;
     auto out = prepared.commands();
-    for (auto& note : wiring_notes(run.system(), run.layout())) out.push_back(std::move(note));
-    for (auto& note : Explainer(run.system(), run.layout(), *prepared.statistics).notes())
+    std::set<int> manipulated;
+    for (const auto& o : run.observers())
+        if (const auto* m = dynamic_cast<const observe::Manipulation*>(o.get()))
+            manipulated.insert(m->settings().group);
+    for (auto& note : wiring_notes(run.system(), run.layout(), manipulated)) out.push_back(std::move(note));
+    for (auto& note : Explainer(run.system(), run.layout(), *prepared.statistics, manipulated).notes())
         out.push_back(std::move(note));
     return out;
 }

@@ -1,6 +1,7 @@
 // Why does it do nothing? Explains the activity of a system from its wiring and from what a run has shown.
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,9 @@ namespace forage {
 
 /// Returns what is probably a mistake in a valid system, as far as that is known without running it: disabled
 /// modules, groups that nothing drives or reads, inputs that a type does not read. One sentence each.
-std::vector<std::string> wiring_notes(const model::System& system, const engine::Layout& layout);
+/// `manipulated` are the numbers of groups whose activity a run changes: they need no other drive.
+std::vector<std::string> wiring_notes(const model::System& system, const engine::Layout& layout,
+                                      const std::set<int>& manipulated = {});
 
 /// Returns a table of the mean, least and largest value and the share of active cells of every group's
 /// activity and inputs over a run, for a terminal.

@@ -26,9 +26,9 @@ def system(groups, connections):
 
 
 class Explain(Cli):
-    def explain(self, groups, connections):
+    def explain(self, groups, connections, *options):
         (self.here / "small.iqr").write_text(system(groups, connections))
-        said = self.forage("explain", "small.iqr", "--cycles", 20)
+        said = self.forage("explain", "small.iqr", "--cycles", 20, *options)
         return said.stderr + said.stdout
 
     def test_the_silent_motor_of_the_exercise_is_followed_to_its_cause(self):
@@ -75,6 +75,20 @@ class Explain(Cli):
         self.assertEqual(said.count("connection '5'"), 1)
         self.assertIn("warning: connection '5' has no effect: neuronLinearThreshold reads no modulatory input", said)
         self.assertNotIn("- P/S was", said)
+
+    def test_manipulated_groups_need_no_other_drive(self):
+        parts = [group("S", SPIKES), group("Set", NEURON.format(0.1)), group("Quiet", NEURON.format(0.1))]
+        said = self.explain(parts, [connection("1", "Set", "Quiet", WEAK)], "--clamp", "P/Set=0")
+        self.assertNotIn("nothing drives group 'P/Set'", said)
+        self.assertIn("P/Set was silent: its activity is set or changed by --clamp, --add or --multiply", said)
+
+    def test_modulation_and_equal_inputs_are_named(self):
+        pyramid = 'name="neuronPyramidApicalShunt"><Parameter name="threshold" value="0.5"/>'
+        said = self.explain(
+            [group("S", SPIKES), group("M", pyramid)],
+            [connection("1", "S", "M", ZERO.replace('"0"', '"0.00001"')), connection("2", "S", "M", WEAK).replace('"excitatory"', '"modulatory"')],
+        )
+        self.assertRegex(said, r"P/M was silent: .*; its modulation was [0-9.]+ on average")
 
     def ways_back(self, sources):
         """What is said about a silent motor that gets `sources`, pairs of a silent group and what drives it."""
