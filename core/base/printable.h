@@ -10,9 +10,14 @@
 
 namespace forage {
 
-/// Whether `text` has an ASCII control character, such as a line end.
+/// Whether `text` has a control character, such as a line end or U+0085.
 inline bool has_control(std::string_view text) {
-    return std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 0x7f; });
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const auto byte = static_cast<unsigned char>(text[i]);
+        const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0u;
+        if (byte < ' ' || byte == 0x7f || (byte == 0xc2 && next >= 0x80 && next < 0xa0)) return true;
+    }
+    return false;
 }
 
 /// `text` with its control characters, except line ends and tabs, and its bytes that are not UTF-8 as

@@ -9,6 +9,7 @@
 
 #include "core/base/named_file.h"
 #include "core/base/number.h"
+#include "core/base/printable.h"
 #include "core/base/separated.h"
 #include "core/formula/formula.h"
 #include "core/model/names.h"
@@ -42,6 +43,13 @@ struct Subject {
         return meant.empty() ? description() : fmt::format("did you mean '{}'?", meant);
     }
 };
+
+/// Whether a text has a control character that XML accepts, but that is no white space, such as U+0085.
+bool has_odd_control(std::string_view text) {
+    std::string rest(text);
+    std::erase_if(rest, [](char c) { return c == '\t' || c == '\n' || c == '\r'; });
+    return has_control(rest);
+}
 
 class Checker {
   public:
@@ -257,6 +265,9 @@ class Checker {
 
     /// Checks the value of the attribute `attribute`, or of an element when the name is empty.
     void value(const Value& v, std::string_view attribute, const ValueRule& rule) {
+        if (!attribute.empty() && !format_.open && has_odd_control(v.view))
+            out_.error(v.where(), fmt::format("{} = '{}' has a control character", attribute, v.view),
+                       "remove it");
         if (rule.kind == ValueKind::text || rule.kind == ValueKind::any) return;
         const Subject subject{attribute.empty() ? v.element.name() : attribute, attribute.empty(), rule};
         const int errors_before = out_.errors();

@@ -28,8 +28,16 @@ TEST_CASE("The message of an exception is printable") {
     }
 }
 
+TEST_CASE("Control characters are those of ASCII and U+0080 to U+009F") {
+    for (const char* with : {"a\n", "\x1b", "\x7f", "a\xc2\x85z", "\xc2\x9f"}) CHECK(has_control(with));
+    for (const char* without : {"", "a b", "\xc2\xa0", "\xc3\x85", "\xe2\x82\xac"})
+        CHECK_FALSE(has_control(without));
+}
+
 TEST_CASE("A text is one word of a shell") {
     CHECK(shell_word("a b") == "'a b'");
     CHECK(shell_word("it's $HOME `ls`; \"\\n") == "'it'\\''s $HOME `ls`; \"\\n'");
     CHECK(shell_word("a\nb'\\\x03") == "$'a\\012b\\047\\134\\003'");
+    CHECK(shell_word("\xc3\xa4") == "'\xc3\xa4'");
+    CHECK(shell_word("\xc2\x85") == "$'\\302\\205'");
 }
