@@ -34,21 +34,30 @@ std::unique_ptr<Found> open_checkpoint(const std::string& path) {
     return out;
 }
 
+bool is_gone(const std::string& path) {
+    std::error_code unknown;
+    return !fs::exists(path, unknown) && !unknown;
+}
+
 /// Reports files that have changed since the run was started.
 void check_files(const CheckpointOrigin& origin, const InputFiles& now, Diagnostics& diagnostics) {
     for (const auto& [path, digest] : origin.files) {
         const auto same = now.find(path);
         if (same != now.end() && same->second == digest) continue;
         diagnostics.error({},
-                          fmt::format("'{}' has changed since the run began{}", path,
-                                      same == now.end() ? ": it is not read now" : ""),
+                          is_gone(path) ? fmt::format("'{}', which the run has read, is gone", path)
+                                        : fmt::format("'{}' has changed since the run began{}", path,
+                                                      same == now.end() ? ": it is not read now" : ""),
                           "a run can only be resumed with the same files; restore it, or start a new run "
                           "with 'forage run'");
     }
     for (const auto& [path, digest] : origin.module_files)
         if (file_digest(path) != digest)
             diagnostics.error(
-                {}, fmt::format("'{}', a file of a module, has changed since cycle {}", path, origin.cycle),
+                {},
+                is_gone(path)
+                    ? fmt::format("'{}', a file of a module, is gone", path)
+                    : fmt::format("'{}', a file of a module, has changed since cycle {}", path, origin.cycle),
                 "restore it, or start a new run with 'forage run'");
 }
 

@@ -100,9 +100,14 @@ struct Origin {
 
 void check_files(const InputFiles& files) {
     Diagnostics diagnostics;
+    std::error_code unknown;
     for (const auto& [path, digest] : files)
         if (file_digest(path) != digest)
-            diagnostics.error({}, fmt::format("'{}' has changed since the run was opened", path),
+            diagnostics.error({},
+                              fmt::format("'{}' {}", path,
+                                          std::filesystem::exists(path, unknown) || unknown
+                                              ? "has changed since the run was opened"
+                                              : "is gone, which the run has read"),
                               "a run can only be resumed with the same files: restore it");
     throw_errors(diagnostics);
 }
