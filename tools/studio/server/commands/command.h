@@ -23,7 +23,12 @@ class Request {
     bool has(const char* member) const { return arguments_.contains(member); }
     const json& operator[](const char* member) const { return arguments_.at(member); }
     std::string text(const char* member) const { return arguments_.at(member).get<std::string>(); }
+    /// Throws InputError for more than 10,000 texts, which would block the engine.
     std::vector<std::string> texts(const char* member) const {
+        constexpr std::size_t max_texts = 10'000;
+        if (has(member) && arguments_.at(member).size() > max_texts)
+            throw InputError(std::string("there is too much in '") + member + "'",
+                             "a message holds at most 10000 of them");
         return has(member) ? arguments_.at(member).get<std::vector<std::string>>()
                            : std::vector<std::string>();
     }
