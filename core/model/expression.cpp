@@ -17,6 +17,9 @@ using model::trim;
 constexpr std::string_view blanks = " \t\r\n";
 constexpr const char* condition_hint =
     "for example 'trial >= 50 && Process/Group(1,1) > 0.5', 'cycle 100', '30 s'";
+constexpr const char* quantity_hint = "for example 'Process/Group(1,1)', 'mean(Process/Group)', 'seconds'";
+constexpr const char* source_hint =
+    "for example 'Process/Group', 'Process/Group:state(1..3,1)', 'mean(Process/Group)'";
 
 /// All positions of `wanted` outside double quotes.
 std::vector<std::size_t> find_unquoted(std::string_view text, std::string_view wanted) {
@@ -63,7 +66,9 @@ std::optional<model::Region> take_cells(std::string_view& rest) {
 /// A text that is read from its front to its end, by recursive descent.
 class Parser {
   public:
-    explicit Parser(std::string_view text) : text_(text.substr(0, text.find_last_not_of(blanks) + 1)) {
+    /// `hint` shows what is read.
+    explicit Parser(std::string_view text, const char* hint = condition_hint)
+        : text_(text.substr(0, text.find_last_not_of(blanks) + 1)), hint_(hint) {
         if (text.size() > longest) fail(fmt::format("it is longer than {} characters", longest), "", 0);
     }
 
@@ -92,7 +97,7 @@ class Parser {
     }
 
     Quantity quantity() {
-        if (at_end()) fail("something is missing at its end", condition_hint, at_);
+        if (at_end()) fail("something is missing at its end", hint_, at_);
         Quantity out;
         out.at = at_;
         if (std::string_view("+-.0123456789").find(text_[at_]) != std::string_view::npos) {
@@ -103,7 +108,7 @@ class Parser {
             if (function_follows(word, in_condition)) {
                 take(word), take("(");
                 out.kind = kind, out.source = cells_of_column(in_condition);
-                if (!take(")")) fail("a ')' is missing", condition_hint, at_);
+                if (!take(")")) fail("a ')' is missing", hint_, at_);
                 return out;
             }
         const std::size_t before = at_;
@@ -114,8 +119,7 @@ class Parser {
                 out.kind = kind;
                 return out;
             }
-        if (at_ == before)
-            fail(fmt::format("'{}' is not expected here", text_.substr(at_, 1)), condition_hint, at_);
+        if (at_ == before) fail(fmt::format("'{}' is not expected here", text_.substr(at_, 1)), hint_, at_);
         return out;
     }
 
@@ -144,7 +148,7 @@ class Parser {
         skip();
         auto left = rest();
         const auto value = take_number<double>(left);
-        if (!value) fail(fmt::format("'{}' is not a number", escaped(left)), condition_hint, at_);
+        if (!value) fail(fmt::format("'{}' is not a number", escaped(left)), hint_, at_);
         at_ = text_.size() - left.size();
         return *value;
     }
@@ -260,6 +264,9 @@ class Parser {
             seconds.kind = Quantity::seconds, seconds.at = left.at;
             return compare(Operator::at_least, std::move(seconds), std::move(left));
         }
+        if (left.kind == Quantity::number && rest().starts_with("sec"))
+            fail(fmt::format("'{}' is not a unit", escaped(rest())),
+                 fmt::format("write '{} s'", trim(text_.substr(begin, at_ - begin))), at_);
         static constexpr std::array<std::pair<std::string_view, Operator>, 6> operators = {
             {{"<=", Operator::at_most},
              {">=", Operator::at_least},
@@ -317,17 +324,18 @@ class Parser {
     }
 
     std::string_view text_;
+    const char* hint_;
     std::size_t at_ = 0, depth_ = 0;
     Condition condition_;
 };
 
 /// Reads the whole text with a member function of Parser.
 template <class Read>
-auto whole(std::string_view text, Read read) {
-    Parser parser(text);
+auto whole(std::string_view text, const char* hint, Read read) {
+    Parser parser(text, hint);
     auto out = read(parser);
     if (!parser.at_end())
-        Parser::fail(fmt::format("'{}' is left over", parser.rest()), condition_hint, parser.position());
+        Parser::fail(fmt::format("'{}' is left over", parser.rest()), hint, parser.position());
     return out;
 }
 
@@ -376,13 +384,13 @@ void Context::error(std::size_t offset, std::string message, std::string hint) c
 }
 
 Source parse_source(std::string_view text) {
-    return whole(text, [](Parser& p) { return p.source({}); });
+    return whole(text, source_hint, [](Parser& p) { return p.source({}); });
 }
 Quantity parse_quantity(std::string_view text) {
-    return whole(text, [](Parser& p) { return p.quantity(); });
+    return whole(text, quantity_hint, [](Parser& p) { return p.quantity(); });
 }
 Condition parse_condition(std::string_view text) {
-    return whole(text, [](Parser& p) { return p.condition(); });
+    return whole(text, condition_hint, [](Parser& p) { return p.condition(); });
 }
 
 Assignment parse_assignment(std::string_view text) {

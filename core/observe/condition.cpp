@@ -7,8 +7,31 @@
 
 #include <fmt/format.h>
 
+#include "core/model/names.h"
+
 namespace forage::observe {
 namespace {
+
+/// The word for the time that is probably meant by a name that no group has: "seconds" for "sec".
+std::string_view meant_time(std::string_view name) {
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 12> other_words = {
+        {{"sec", "seconds"},
+         {"secs", "seconds"},
+         {"second", "seconds"},
+         {"time", "seconds"},
+         {"t", "seconds"},
+         {"s", "seconds"},
+         {"cycles", "cycle"},
+         {"step", "cycle"},
+         {"steps", "cycle"},
+         {"trials", "trial"},
+         {"now", "seconds"},
+         {"duration", "seconds"}}};
+    static const std::vector<std::string> words{"cycle", "trial", "seconds"};
+    for (const auto& [other, word] : other_words)
+        if (name == other) return word;
+    return name.find('/') == name.npos ? nearest(name, words) : std::string_view();
+}
 
 std::optional<Quantity> resolve(const expression::Quantity& q, const engine::Layout& layout, bool trials,
                                 const expression::Context& context) {
@@ -21,6 +44,13 @@ std::optional<Quantity> resolve(const expression::Quantity& q, const engine::Lay
     if (!out.sees_cells()) return out;
     expression::Source cells = q.source;
     cells.mean = false;
+    if (const auto word = q.source.cells ? "" : meant_time(q.source.column.text);
+        !word.empty() && q.kind == Quantity::Kind::cell &&
+        model::groups_named(layout.groups, q.source.column.text).empty()) {
+        context.error(q.at, fmt::format("there is no group '{}'", q.source.column.text),
+                      fmt::format("did you mean '{}'? The time is 'cycle', 'seconds' or 'trial'", word));
+        return std::nullopt;
+    }
     auto source = find_source(layout, cells, context);
     if (!source) return std::nullopt;
     out.source = std::move(*source);
@@ -100,27 +130,6 @@ bool Condition::holds(const Node& n, const engine::Simulation& simulation, const
     }
 }
 
-std::optional<Condition> parse_condition(const engine::Layout& layout, bool trials, std::string_view text,
-                                         std::string_view what, Diagnostics& diagnostics, Location at) {
-    const expression::Context context{text, what, diagnostics, std::move(at)};
-    const auto parsed = context.parsed(&expression::parse_condition);
-    if (!parsed) return std::nullopt;
-    Condition out;
-    out.nodes_ = parsed->nodes;
-    for (const auto& q : parsed->quantities)
-        if (auto quantity = resolve(q, layout, trials, context))
-            out.quantities_.push_back(std::move(*quantity));
-    return out.quantities_.size() == parsed->quantities.size() ? std::optional(std::move(out)) : std::nullopt;
-}
-
-std::optional<Quantity> parse_quantity(const engine::Layout& layout, bool trials, std::string_view text,
-                                       std::string_view what, Diagnostics& diagnostics, Location at) {
-    const expression::Context context{text, what, diagnostics, std::move(at)};
-    const auto parsed = context.parsed(&expression::parse_quantity);
-    return parsed ? resolve(*parsed, layout, trials, context) : std::nullopt;
-}
-
-}  // namespace forage::observe
 std::optional<Condition::Begin> Condition::begin(const Node& n, double seconds_per_cycle) const {
     using Operator = expression::Condition::Operator;
     if (n.op == Operator::both || n.op == Operator::either) {
@@ -146,3 +155,24 @@ std::optional<Condition::Begin> Condition::begin(const Node& n, double seconds_p
                  later ? std::floor(from + rounding) + 1 : std::ceil(from - rounding)};
 }
 
+std::optional<Condition> parse_condition(const engine::Layout& layout, bool trials, std::string_view text,
+                                         std::string_view what, Diagnostics& diagnostics, Location at) {
+    const expression::Context context{text, what, diagnostics, std::move(at)};
+    const auto parsed = context.parsed(&expression::parse_condition);
+    if (!parsed) return std::nullopt;
+    Condition out;
+    out.nodes_ = parsed->nodes;
+    for (const auto& q : parsed->quantities)
+        if (auto quantity = resolve(q, layout, trials, context))
+            out.quantities_.push_back(std::move(*quantity));
+    return out.quantities_.size() == parsed->quantities.size() ? std::optional(std::move(out)) : std::nullopt;
+}
+
+std::optional<Quantity> parse_quantity(const engine::Layout& layout, bool trials, std::string_view text,
+                                       std::string_view what, Diagnostics& diagnostics, Location at) {
+    const expression::Context context{text, what, diagnostics, std::move(at)};
+    const auto parsed = context.parsed(&expression::parse_quantity);
+    return parsed ? resolve(*parsed, layout, trials, context) : std::nullopt;
+}
+
+}  // namespace forage::observe

@@ -64,6 +64,17 @@ std::vector<std::string> groups_of(const std::string& text, const engine::Layout
     return out.empty() ? std::vector{text} : out;  // which is then reported as unknown
 }
 
+/// Whether "Process/Group=light" names a source, and then a file of no format.
+bool names_no_format(const std::string& text, const engine::Layout& layout) {
+    const auto equals = text.rfind('=');
+    if (equals == std::string::npos) return false;
+    Diagnostics unused;
+    const auto names_source = [&](const std::string& part) {
+        return observe::find_source(layout, groups_of(part, layout).front(), "", unused).has_value();
+    };
+    return !names_source(text) && names_source(text.substr(0, equals));
+}
+
 }  // namespace
 
 std::vector<RecordingFile> recorded_files(const std::vector<model::RecordingSpec>& recordings,
@@ -82,6 +93,15 @@ std::vector<RecordingFile> recorded_files(const std::vector<model::RecordingSpec
             diagnostics.error(asked.column.at,
                               fmt::format("{} \'{}\': '{}' is not a plain file name", option, whole, file),
                               "-o chooses the directory; names have letters, digits, '.', '-' and '_'");
+            continue;
+        }
+        if (file.empty() && names_no_format(whole, layout)) {
+            diagnostics.error(
+                asked.column.at,
+                fmt::format("{} '{}': '{}' is not the name of a recording", option, whole,
+                            whole.substr(whole.rfind('=') + 1)),
+                "behind '=', write a file that ends in .csv, .npy, .npz, .h5 or .dat; a state is written "
+                "'Process/Group:state'");
             continue;
         }
         for (const auto& one : groups_of(text, layout)) {

@@ -138,6 +138,8 @@ TEST_CASE("Mistakes in conditions are reported with the names that exist") {
     CHECK(contains(s.said("5"), "a comparison is missing"));
     CHECK(contains(s.said("cycle > P/Aa(1,1)"), "there is no group"));
     CHECK(contains(s.said("cycle > cycle 5"), "nothing to compare"));
+    CHECK(contains(s.said("5 sec"), "'sec' is not a unit"));
+    CHECK(contains(s.said("sec > 3"), "there is no group 'sec'"));
     CHECK(contains(s.said("trial 5", false), "this run has no 'trial'"));
 }
 
