@@ -662,9 +662,9 @@ class Documentation(Experiment):
         (self.here / "systems/p.txt").write_text("0 " * 32)
         self.run_with(
             "".join(
-                f"<clamp {t}/>"
+                f"<add {t}/>"
                 if "group=" in t
-                else f'<clamp group="Bug/Light" patterns="p.txt" {t}/>'
+                else f'<add group="Bug/Light" patterns="p.txt" {t}/>'
                 if re.match("every|step|times|backwards|from|until", t)
                 else f'<measure name="{i}" {t}/>'
                 for i, t in enumerate(texts)
