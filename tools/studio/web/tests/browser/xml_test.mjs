@@ -95,9 +95,9 @@ export default async function({ folder, context, start, open, faults, step }) {
   await accept(/Bug\/Light/);
   await page.keyboard.press('Tab');
   await page.keyboard.press('Control+Space');
-  await page.keyboard.type('selection/ur');
-  await accept(/Selection\/UR/);
-  assert.match(await line(), /<Connection id="new" name="New" source="bug\.light" target="selection\.ur"><\/Connection>/);
+  await page.keyboard.type('bug/sens');
+  await accept(/Bug\/Sensor/);
+  assert.match(await line(), /<Connection id="new" name="New" source="bug\.light" target="bug\.sensor"><\/Connection>/);
   await page.keyboard.press('Tab');
   await page.keyboard.type('<Syn');
   await accept(/Synapse/);
