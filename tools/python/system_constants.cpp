@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "core/model/constants.h"
 #include "tools/python/system.h"
 #include "tools/python/values.h"
 

@@ -139,7 +139,7 @@ TEST_CASE("Parameters with an unexpected meaning give warnings") {
     CHECK(warnings() == 2);
 }
 
-TEST_CASE("A time constant is checked against the time of a cycle, which the type is told") {
+TEST_CASE("A time constant is checked against the time of a cycle, which its type gets") {
     Registry registry;
     add_neurons(registry);
     model::System system;

@@ -16,6 +16,7 @@
 #include <forage/forage.h>
 
 #include "core/model/build.h"
+#include "core/model/constants.h"
 #include "core/model/edit.h"
 #include "core/model/lookup.h"
 
