@@ -56,10 +56,16 @@ ParameterValue value_of(const AttributeOf<Struct>& attribute, const Struct& s) {
         attribute.member);
 }
 
+/// A struct that keeps formulas for its numbers.
+template <class Struct>
+concept HasFormulas = requires(Struct s) {
+    s.formulas;
+};
+
 /// The formula that gives an attribute its value; null when there is none.
 template <class Struct>
 const std::string* formula_of(const AttributeOf<Struct>& attribute, const Struct& s) {
-    if constexpr (requires { s.formulas; })
+    if constexpr (HasFormulas<Struct>)
         for (const auto& f : s.formulas)
             if (f.attribute == attribute.rule.name && f.holds(s)) return &f.text;
     return nullptr;
@@ -86,7 +92,7 @@ struct ElementOf {
     }
     /// Whether the value is a number for which the struct can keep a formula.
     static bool may_be_formula(const AttributeOf<Struct>& attribute) {
-        if constexpr (requires(Struct s) { s.formulas; })
+        if constexpr (HasFormulas<Struct>)
             return std::holds_alternative<int Struct::*>(attribute.member) ||
                    std::holds_alternative<double Struct::*>(attribute.member);
         return false;
@@ -105,18 +111,18 @@ struct ElementOf {
             std::visit(
                 [&]<class T>(T Struct::*member) {
                     T& to = s.*member;
-                    if constexpr (requires { s.formulas; } &&
-                                  (std::is_same_v<T, int> || std::is_same_v<T, double>))
-                        if (in_braces(value.view)) {
-                            constexpr double largest = std::is_same_v<T, int>
-                                                           ? std::numeric_limits<int>::max()
-                                                           : std::numeric_limits<double>::max();
-                            const auto& rule = attribute.rule.value;
-                            s.formulas.push_back({member, attribute.rule.name, text,
-                                                  std::max(rule.low, -largest), std::min(rule.high, largest),
-                                                  true, 0, value.where()});
-                            return;
-                        }
+                    if constexpr (HasFormulas<Struct>)
+                        if constexpr (std::is_same_v<T, int> || std::is_same_v<T, double>)
+                            if (in_braces(value.view)) {
+                                constexpr double largest = std::is_same_v<T, int>
+                                                               ? std::numeric_limits<int>::max()
+                                                               : std::numeric_limits<double>::max();
+                                const auto& rule = attribute.rule.value;
+                                s.formulas.push_back({member, attribute.rule.name, text,
+                                                      std::max(rule.low, -largest),
+                                                      std::min(rule.high, largest), true, 0, value.where()});
+                                return;
+                            }
                     if constexpr (std::is_same_v<T, std::string>)
                         to = text;
                     else if constexpr (std::is_same_v<T, model::Expression>)
