@@ -20,15 +20,15 @@ std::string with_commas(double whole) {
     return out;
 }
 
-/// The number of synapses that `for_each` visits, or `most` if it is larger.
+/// The number of synapses that `for_each` visits, or `max` if it is larger.
 template <class ForEach>
-std::size_t count_to(std::size_t most, ForEach for_each) {
+std::size_t count_to(std::size_t max, ForEach for_each) {
     struct Enough {};
     std::size_t n = 0;
     Diagnostics unused;  // they are reported when the synapses are made
     try {
         for_each(unused, [&](int, int, double) {
-            if (++n >= most) throw Enough();
+            if (++n >= max) throw Enough();
         });
     } catch (const Enough&) {  // NOLINT(bugprone-empty-catch): ends the visits
     }
@@ -49,7 +49,7 @@ bool is_of_rectangles(const model::Connection& c, const model::Topology& source,
 
 Synapses connect(const model::Connection& connection, const model::Topology& source_topology,
                  const model::Topology& target_topology, std::uint64_t seed, Diagnostics& diagnostics,
-                 std::size_t most) {
+                 std::size_t max) {
     enum Stream : std::uint32_t { arbor_stream, attenuation_stream, delay_stream };
     for (const auto* topology : {&source_topology, &target_topology}) {
         const GroupShape size = model::shape(*topology);
@@ -85,11 +85,11 @@ Synapses connect(const model::Connection& connection, const model::Topology& sou
     Synapses out;
     const bool whole = !std::holds_alternative<model::MappedPattern>(connection.pattern);
     const double points = Arbor(connection.arborization, receptive ? source : target, {}).max_points(whole);
-    const double pairs = most_pairs(connection.pattern, source, target), bound = pairs * points,
-                 limit = static_cast<double>(most);
+    const double pairs = max_pairs(connection.pattern, source, target), bound = pairs * points,
+                 limit = static_cast<double>(max);
     const bool is_exact = points == 1 && connection.arborization.probability >= 1 &&
                           is_of_rectangles(connection, source_topology, target_topology);
-    if (bound > limit && (is_exact || bound > 20 * limit || count_to(most + 1, for_each_synapse) > most)) {
+    if (bound > limit && (is_exact || bound > 20 * limit || count_to(max + 1, for_each_synapse) > max)) {
         diagnostics.error(
             connection.at,
             fmt::format("connection '{}' is too large: {} pairs of cells{}", connection.name,

@@ -22,13 +22,13 @@ struct Synapses {
 
 /// The largest number of synapses that is accepted. So many synapses take up to 2.8 GB (measured: 2.74 GB)
 /// while they are built, and 0.4 to 2 GB afterwards.
-inline constexpr std::size_t most_synapses = 100'000'000;
+inline constexpr std::size_t max_synapses = 100'000'000;
 
 /// Builds the synapses of `connection` between groups of these topologies. `seed` decides everything random.
-/// Reports a connection without synapses, a connection that has more than `most`, and mistakes in its
+/// Reports a connection without synapses, a connection that has more than `max`, and mistakes in its
 /// pattern.
 Synapses connect(const model::Connection& connection, const model::Topology& source,
                  const model::Topology& target, std::uint64_t seed, Diagnostics& diagnostics,
-                 std::size_t most = most_synapses);
+                 std::size_t max = max_synapses);
 
 }  // namespace forage::connectivity

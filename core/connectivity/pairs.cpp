@@ -153,7 +153,7 @@ std::optional<std::vector<int>> indices(const model::Population& population, con
     return out;
 }
 
-double most_pairs(const model::Pattern& pattern, const Grid& source, const Grid& target) {
+double max_pairs(const model::Pattern& pattern, const Grid& source, const Grid& target) {
     const auto size = [](const model::Population& population, const Grid& grid) {
         if (const auto* list = std::get_if<model::List>(&population))
             return static_cast<double>(list->points.size());

@@ -20,7 +20,7 @@ void for_each_pair(const model::Pattern& pattern, const Grid& source, const Grid
                    const std::function<void(Place, Place)>& visit, Diagnostics& diagnostics);
 
 /// An upper bound of the number of pairs of a pattern, computed without listing them.
-double most_pairs(const model::Pattern& pattern, const Grid& source, const Grid& target);
+double max_pairs(const model::Pattern& pattern, const Grid& source, const Grid& target);
 
 /// The indices of the cells of a population in the order of for_each_pair(). Empty if there is something to
 /// report about it.

@@ -70,7 +70,7 @@ std::optional<Regular> regular(const model::Connection& c, const model::Topology
              targets = indices(foreach->target, Grid(target_topology));
         if (!sources || !targets) return {};
         out.synapses = sources->size() * targets->size();
-        if (out.synapses == 0 || out.synapses > most_synapses) return {};
+        if (out.synapses == 0 || out.synapses > max_synapses) return {};
         out.all_to_all = true, out.sources = std::move(*sources), out.targets = std::move(*targets);
         places = {{0, 0}};
     } else if (const auto* mapped = std::get_if<model::MappedPattern>(&c.pattern)) {
@@ -96,7 +96,7 @@ std::optional<Regular> regular(const model::Connection& c, const model::Topology
         double synapses = 0;
         for (const Offset& o : places)
             synapses += static_cast<double>(out.width - std::abs(o.x)) * (out.height - std::abs(o.y));
-        if (synapses == 0 || synapses > static_cast<double>(most_synapses)) return {};
+        if (synapses == 0 || synapses > static_cast<double>(max_synapses)) return {};
         out.synapses = static_cast<std::size_t>(synapses);
     } else {
         return {};

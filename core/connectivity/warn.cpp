@@ -53,7 +53,7 @@ std::string left_out(const model::Connection& connection, const model::Group& so
 }
 
 /// The largest number of synapses between two cells. Looks at the target with most synapses.
-std::size_t most_synapses_of_a_pair(const Synapses& synapses, int targets) {
+std::size_t synapses_of_a_pair(const Synapses& synapses, int targets) {
     std::vector<std::size_t> of_target(static_cast<std::size_t>(targets));
     for (const int post : synapses.post) ++of_target[static_cast<std::size_t>(post)];
     const auto post = static_cast<int>(std::ranges::max_element(of_target) - of_target.begin());
@@ -66,6 +66,10 @@ std::size_t most_synapses_of_a_pair(const Synapses& synapses, int targets) {
 /// Reports pairs that tuples name several times, at the first of them.
 void warn_of_repeated_pairs(const model::Connection& connection, const model::TuplesPattern& pattern,
                             Diagnostics& diagnostics) {
+    constexpr std::size_t max_checked = 1'000'000;  // larger patterns are made by programs
+    std::size_t pairs = 0;
+    for (const auto& tuple : pattern.tuples) pairs += tuple.sources.size() * tuple.targets.size();
+    if (pairs > max_checked) return;
     std::set<std::tuple<int, int, int, int>> seen;
     std::size_t repeated = 0;
     const model::Point *from = nullptr, *to = nullptr;
@@ -99,7 +103,7 @@ void warn_of_wiring(const model::Connection& connection, const model::Group& sou
     if (!std::holds_alternative<model::ForeachPattern>(connection.pattern) ||
         !std::holds_alternative<model::AllArbor>(connection.arborization.shape))
         return;
-    if (const auto most = most_synapses_of_a_pair(synapses, model::shape(target.topology).cells); most > 1)
+    if (const auto most = synapses_of_a_pair(synapses, model::shape(target.topology).cells); most > 1)
         diagnostics.warning(
             connection.at,
             fmt::format("connection '{}' joins each pair of cells with {}{} synapses",

@@ -42,9 +42,9 @@ TEST_CASE("A connection that could be too large is refused before it is built") 
     Wiring small;
     small.pattern = all_to_all;
     small.arborization.shape = model::AllArbor{};
-    small.most = 215;  // 36 pairs of 6 points
+    small.max = 215;  // 36 pairs of 6 points
     CHECK(small.build().diagnostics.failed());
-    small.most = 216;
+    small.max = 216;
     CHECK(small.build().synapses.size() == 216);
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("No pattern has more pairs, and no arborization more points, than the 
                         w.arborization.shape = shape, w.arborization.direction = direction;
                         const auto n = w.build().synapses.size();
                         if (n == 0) continue;
-                        w.most = n - 1;
+                        w.max = n - 1;
                         CHECK(w.build().diagnostics.failed());
                     }
 }
@@ -81,8 +81,8 @@ TEST_CASE("A limit counts the synapses that exist") {
     w.source = rect(4, 2), w.target = rect(4, 2);
     w.arborization.shape = model::RectArbor{2, 2};  // cut at the edges
     const auto n = w.build().synapses.size();
-    w.most = n;
+    w.max = n;
     CHECK(w.build().synapses.size() == n);
-    w.most = n - 1;
+    w.max = n - 1;
     CHECK(w.build().diagnostics.failed());
 }

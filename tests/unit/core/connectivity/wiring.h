@@ -37,7 +37,7 @@ struct Wiring {
     model::Arborization arborization;
     model::DistanceFunction attenuation, delay;
     std::uint64_t seed = 1;
-    std::size_t most = most_synapses;
+    std::size_t max = max_synapses;
     bool lenient = false;
 
     Built build() const {
@@ -46,7 +46,7 @@ struct Wiring {
         c.pattern = pattern, c.arborization = arborization, c.attenuation = attenuation, c.delay = delay;
         Built out;
         out.diagnostics.lenient = lenient;
-        out.synapses = connect(c, source, target, seed, out.diagnostics, most);
+        out.synapses = connect(c, source, target, seed, out.diagnostics, max);
         const std::size_t n = out.synapses.size();
         if (!out.diagnostics.failed())
             CHECK((out.synapses.post.size() == n && out.synapses.distance.size() == n &&
