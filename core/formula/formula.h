@@ -71,14 +71,11 @@ class Formula {
     /// part that counts is computed. Throws what `names` throws.
     double value(const Names& names) const;
 
-    const std::vector<Node>& nodes() const { return nodes_; }  ///< the last one is the whole formula
-    const std::vector<std::string>& names() const { return names_; }
-
   private:
     double value(std::uint32_t node, const Names& names) const;
 
-    std::vector<Node> nodes_;
-    std::vector<std::string> names_;  ///< each once, in the order of their first use
+    std::vector<Node> nodes_;  ///< the last one is the whole formula
+    std::vector<std::string> names_;
 };
 
 /// Whether a text is a formula in braces: "{1 + lambda}".

@@ -199,9 +199,8 @@ class Parser {
                  std::ranges::find(functions, name, &Function::name) == functions.end()
                      ? ""
                      : fmt::format("its arguments stand in parentheses: {}(...)", name));
-        auto it = std::ranges::find(names_, name);
-        if (it == names_.end()) it = names_.insert(names_.end(), name);
-        return add(Op::name, at, static_cast<std::uint32_t>(it - names_.begin()));
+        names_.push_back(name);
+        return add(Op::name, at, static_cast<std::uint32_t>(names_.size() - 1));
     }
 
     std::uint32_t call(const std::string& name, std::size_t at) {

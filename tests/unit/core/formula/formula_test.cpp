@@ -65,8 +65,7 @@ TEST_CASE("functions compute what their names say") {
     CHECK(std::isnan(value("sqrt(-1)")));
 }
 
-TEST_CASE("names are listed once, in the order of their first use") {
-    CHECK(Formula("b + a * b - pi").names() == std::vector<std::string>{"b", "a"});
+TEST_CASE("names are ASCII words that the grammar does not use") {
     CHECK(is_formula_name("tau_m2"));
     for (const auto* name : {"", "2x", "a b", "pi", "if", "and", "max", "a-b", "\u03bb"})
         CHECK(!is_formula_name(name));
