@@ -202,6 +202,38 @@ TEST_CASE("a system that cannot run is edited on, and the last run that could co
     CHECK(e.last["document"]["running_is_current"] == true);
 }
 
+TEST_CASE("a constant changes the run and the file, and is undone in both") {
+    Editor e;
+    std::string text = e.content();
+    text.insert(text.find('<', text.find("<System") + 1), "<Constant name=\"gain\" value=\"2\"/>\n  ");
+    const std::string light = "<Neuron name=\"neuronLinearThreshold\"";
+    const auto at = text.find(light, text.find("id=\"bug.light\""));
+    text.replace(at, text.find('>', at) + 1 - at,
+                 light + "><Parameter name=\"excGain\" value=\"{gain / 2}\"/></Neuron>");
+    std::ofstream(e.file) << text;
+    e.result({{"command", "open"},
+              {"system", e.file},
+              {"world", FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world"}});
+    REQUIRE(e.last["document"]["running_is_current"] == true);
+    const auto gain = [&] {
+        const json all = e.result({{"command", "parameters"}, {"item", "Bug/Light"}});
+        for (const auto& p : all["parameters"])
+            if (p["name"] == "excGain") return p["value"];
+        return json();
+    };
+    const auto before = e.text();
+    CHECK(gain() == 1);
+    e.result({{"command", "step"}});
+    e.result({{"command", "set"}, {"assignments", {"gain=3"}}});
+    CHECK(gain() == 1.5);
+    CHECK(e.text().find("name=\"gain\" value=\"3\"") != std::string::npos);
+    CHECK(e.text().find("{gain / 2}") != std::string::npos);
+    CHECK(e.ask({{"command", "set"}, {"assignments", {"gain=much"}}})["ok"] == false);
+    e.result({{"command", "undo"}});
+    CHECK(gain() == 1);
+    CHECK(e.text() == before);
+}
+
 TEST_CASE("a file whose system cannot run is opened to be corrected") {
     Editor e;
     std::string text = e.content();
