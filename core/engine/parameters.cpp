@@ -95,8 +95,7 @@ void LiveConstants::checkpoint(Archive& archive) {
     for (auto& c : system_.constants) archive(c.value);
     for (auto& p : system_.processes)
         for (auto& c : p.constants) archive(c.value);
-    Diagnostics found_when_read;
-    if (archive.loading()) model::compute(system_, found_when_read);
+    if (archive.loading()) model::compute(system_);
 }
 
 std::vector<Assignment> expanded(LiveConstants constants, const Layout& layout,

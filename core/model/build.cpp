@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/model/constants.h"
 #include "core/model/lookup.h"
 #include "core/model/refused.h"
 
@@ -248,6 +249,9 @@ std::string import_process(System& system, ProcessFile file) {
 
 void join(System& system, System other) {
     embed_links(other);
+    if (!agree(system.constants, other.constants)) write_out_formulas(other);
+    for (auto& c : other.constants)
+        if (!find_constant(system, c.name)) system.constants.push_back(std::move(c));
     add_prefix(system, "", "S{}_", other.processes, other.connections, other.canvas_comments);
     const auto named = [&](const std::string& name) {
         return std::ranges::any_of(system.processes,
@@ -280,6 +284,26 @@ ProcessFile extract_process(const System& system, std::string_view id) {
         if (std::ranges::find(it->constants, c.name, &Constant::name) == it->constants.end())
             out.process.constants.push_back(c);
     return out;
+}
+
+System system_of(ProcessFile file) {
+    System out;
+    out.name = file.process.name;
+    out.processes.push_back(std::move(file.process));
+    out.connections = std::move(file.connections);
+    return out;
+}
+
+void make_original(System& system) {
+    complete(system.processes, system.connections);
+    write_out_formulas(system);
+}
+
+void make_original(ProcessFile& file, Diagnostics& diagnostics) {
+    System alone = system_of(std::move(file));
+    compute(alone, diagnostics);
+    make_original(alone);
+    file = {std::move(alone.processes.front()), std::move(alone.connections)};
 }
 
 void embed_links(System& system) {

@@ -66,7 +66,7 @@ std::string import_process(System& system, ProcessFile file);
 
 /// Adds all processes and connections of `other`. If an id is in both systems, all ids of `other` get a
 /// prefix that makes them unique. A process whose name is taken gets a number ("Bug 2"), so that paths stay
-/// unique.
+/// unique. Constants that both have with different values are written out in what comes from `other`.
 void join(System& system, System other);
 
 /// A process with the connections among its groups, as the content of a process file. References of its
@@ -76,6 +76,14 @@ ProcessFile extract_process(const System& system, std::string_view id);
 
 /// Makes the content of linked processes part of the system. No process is linked afterwards.
 void embed_links(System& system);
+
+/// The process as a system of its own.
+System system_of(ProcessFile file);
+
+/// Makes a system one that the original can read: complete, with numbers instead of formulas.
+void make_original(System& system);
+/// The same for a process file. Reports formulas that have no value.
+void make_original(ProcessFile& file, Diagnostics& diagnostics);
 
 /// Gives all connections, groups and processes what the original requires and a file may leave out: patterns,
 /// arborizations and functions are written, and all items have a place in the diagram.

@@ -89,7 +89,7 @@ void each_setting(System& system, F f) {
 
 /// Gives a number the value of its formula. Reports one that it cannot have.
 template <class Struct>
-void take(Struct& s, NumberFormula<Struct>& f, double v, Diagnostics& diagnostics) {
+void set_number(Struct& s, NumberFormula<Struct>& f, double v, Diagnostics& diagnostics) {
     const auto wrong = [&](std::string_view why) {
         diagnostics.error(f.at, fmt::format("{} = '{}' is {:.15g}, {}", f.attribute, f.text, v, why));
     };
@@ -99,7 +99,7 @@ void take(Struct& s, NumberFormula<Struct>& f, double v, Diagnostics& diagnostic
     if (v < f.low || v > f.high)
         return wrong(fmt::format("which is not from {:.15g} to {:.15g}", f.low, f.high));
     std::visit([&]<class T>(T Struct::*member) { s.*member = static_cast<T>(v); }, f.member);
-    f.value = v, f.fresh = false;
+    f.value = v, f.computed = true;
 }
 
 /// Computes the numbers of a struct. Returns whether all of them have a value.
@@ -107,12 +107,12 @@ template <class Struct>
 bool compute_numbers(Constants& constants, Struct& s, const Process* process, Diagnostics& diagnostics) {
     std::erase_if(s.formulas, [&](const auto& f) { return !f.holds(s); });  // edited since
     for (auto& f : s.formulas) try {
-            if (const auto v = constants.value(f.text, process)) take(s, f, *v, diagnostics);
+            if (const auto v = constants.value(f.text, process)) set_number(s, f, *v, diagnostics);
         } catch (const FormulaError& e) {
             diagnostics.error(inside(f.at, e.at), fmt::format("{} = '{}': {}", f.attribute, f.text, e.what()),
                               e.hint);
         }
-    return std::ranges::none_of(s.formulas, [](const auto& f) { return f.fresh; });
+    return std::ranges::all_of(s.formulas, [](const auto& f) { return f.computed; });
 }
 
 }  // namespace
@@ -266,6 +266,23 @@ bool compute(System& system, Diagnostics& diagnostics) {
         }
     });
     return complete;
+}
+
+void compute(System& system) {
+    Diagnostics unread;
+    compute(system, unread);
+}
+
+bool agree(const std::vector<Constant>& a, const std::vector<Constant>& b) {
+    return std::ranges::all_of(b, [&](const Constant& c) {
+        const auto* same = named(a, c.name);
+        return !same || same->value == c.value;
+    });
+}
+
+bool has_all(const std::vector<Constant>& all, const std::vector<Constant>& wanted) {
+    return agree(all, wanted) &&
+           std::ranges::all_of(wanted, [&](const Constant& c) { return named(all, c.name); });
 }
 
 void write_out_formulas(System& system) {

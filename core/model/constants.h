@@ -58,6 +58,13 @@ const Process* scope_of(const Connection& connection, const GroupIndex& groups);
 /// in constants and in formulas of numbers; those of parameters are reported by validate(), which knows their
 /// types. Returns whether all numbers have a value.
 bool compute(System& system, Diagnostics& diagnostics);
+/// The same, without reports: of a system whose mistakes are reported when it is read.
+void compute(System& system);
+
+/// Whether constants that have the same name in both have the same value.
+bool agree(const std::vector<Constant>& a, const std::vector<Constant>& b);
+/// Whether `all` has the constants `wanted`, with the same values.
+bool has_all(const std::vector<Constant>& all, const std::vector<Constant>& wanted);
 
 /// Writes out all formulas as the numbers that they have, and removes the constants.
 void write_out_formulas(System& system);

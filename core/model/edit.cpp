@@ -317,8 +317,8 @@ void move_files(System& system, const std::string& from, const std::string& to, 
 
 void set(System& system, const Assignment& a) {
     if (a.owner == Assignment::Owner::constant) {
-        Diagnostics found_when_read;
-        return set_constant(system, a, found_when_read);
+        Diagnostics unread;  // parse_assignment() has reported what is wrong
+        return set_constant(system, a, unread);
     }
     if (a.owner == Assignment::Owner::process && !a.parameter) {
         find_process(system, a.id)->module_enabled = std::get<bool>(a.value);
@@ -328,10 +328,7 @@ void set(System& system, const Assignment& a) {
     set_parameter(use_of(system, a), a.parameter->name,
                   as_written ? std::string(trim(std::string_view(a.text).substr(a.text.find('=') + 1)))
                              : to_text(a.value));
-    if (as_written && a.text.ends_with('}')) {
-        Diagnostics none;  // parse_assignment() has reported what is wrong
-        compute(system, none);
-    }
+    if (as_written && a.text.ends_with('}')) compute(system);
 }
 
 System with(const System& system, const Assignment& assignment) {

@@ -181,8 +181,7 @@ Merge merge(const System& base, const System& mine, const System& theirs) {
         return !groups.find(c.source).group || !groups.find(c.target).group;
     });
     forget_phantoms(s);
-    Diagnostics found_when_read;
-    compute(s, found_when_read);
+    compute(s);
     return out;
 }
 

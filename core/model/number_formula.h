@@ -17,13 +17,13 @@ struct NumberFormula {
     std::string attribute;     ///< what the file calls the number
     std::string text;          ///< in braces
     double low = 0, high = 0;  ///< the values that are possible
-    bool fresh = true;         ///< whether compute() has not given the number a value yet
+    bool computed = false;     ///< whether compute() has given the number a value
     double value = 0;          ///< what compute() found last
     Location at;
 
     /// Whether the number is still that of the formula.
     bool holds(const Struct& s) const {
-        return fresh || std::visit([&](auto m) { return static_cast<double>(s.*m) == value; }, member);
+        return !computed || std::visit([&](auto m) { return static_cast<double>(s.*m) == value; }, member);
     }
     friend bool operator==(const NumberFormula&, const NumberFormula&) = default;
 };

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/model/build.h"
+#include "core/model/constants.h"
 #include "core/model/lookup.h"
 
 namespace forage::model {
@@ -283,8 +284,10 @@ void set_feedback(System& system, std::string_view id, const std::map<std::strin
 System copy(const System& system, std::span<const std::string> ids, Between connections) {
     const std::set<std::string_view> wanted(ids.begin(), ids.end());
     std::set<std::string_view> groups, found;
+    bool one_scope = true;  // whether the same constants hold in all loose groups
     System out;
     out.id = out.name = clipboard_process;
+    out.cycles_per_second = system.cycles_per_second, out.constants = system.constants;
     Process loose;
     loose.id = loose.name = clipboard_process;
     for (const auto& p : system.processes) {
@@ -298,7 +301,10 @@ System copy(const System& system, std::span<const std::string> ids, Between conn
         for (const auto& g : p.groups) {
             if (!whole && !wanted.contains(g.id)) continue;
             groups.insert(g.id), found.insert(g.id);
-            if (!whole) loose.groups.push_back(g);
+            if (whole) continue;
+            if (loose.groups.empty()) loose.constants = p.constants;
+            one_scope = one_scope && loose.constants == p.constants;
+            loose.groups.push_back(g);
         }
         for (const auto& c : p.canvas_comments)
             if (wanted.contains(c.id)) {
@@ -325,6 +331,7 @@ System copy(const System& system, std::span<const std::string> ids, Between conn
     for (const auto& id : wanted)
         if (!found.contains(id)) missing("process, group, connection or comment", id);
     if (!loose.groups.empty() || !loose.canvas_comments.empty()) out.processes.push_back(std::move(loose));
+    if (!one_scope) write_out_formulas(out);
     return out;
 }
 
@@ -343,6 +350,11 @@ std::vector<std::string> paste(System& system, System content, std::string_view 
         if (!target) missing("process", process);
         refuse_edit(*target);
     }
+    // Formulas stay where they mean the same.
+    bool same_scope = has_all(system.constants, content.constants);
+    for (const auto& p : content.processes)
+        if (is_loose(p)) same_scope = same_scope && find_process(system, process)->constants == p.constants;
+    if (!same_scope) write_out_formulas(content);
     const std::string prefix = make_ids_unique(system, content.processes, content.connections);
     const std::string loose_id = prefix + std::string(clipboard_process);
 

@@ -120,7 +120,7 @@ struct ElementOf {
                                 const auto& rule = attribute.rule.value;
                                 s.formulas.push_back({member, attribute.rule.name, text,
                                                       std::max(rule.low, -largest),
-                                                      std::min(rule.high, largest), true, 0, value.where()});
+                                                      std::min(rule.high, largest), false, 0, value.where()});
                                 return;
                             }
                     if constexpr (std::is_same_v<T, std::string>)

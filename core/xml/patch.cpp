@@ -300,8 +300,7 @@ Patch patch(const std::string& path, const std::string& text, const model::Syste
             const model::System& after, bool lenient) {
     Patch out;
     model::System wanted = after;  // as it will be read
-    Diagnostics found_when_read;
-    model::compute(wanted, found_when_read);
+    model::compute(wanted);
     for (const Extent extent : {Extent::least, Extent::items, Extent::all}) {
         out.extent = extent;
         out.text = patched(text, before, after, extent);

@@ -304,13 +304,18 @@ bool report_second_link(const model::Process& place, const std::string& file, co
 }
 
 /// Warns when the element that links a file says something that the file says otherwise.
-void warn_of_ignored_names(const model::Process& place, const model::Process& content, Diagnostics& out) {
+void warn_of_ignored(const model::Process& place, const model::Process& content, Diagnostics& out) {
     std::vector<std::string> ignored, used;
     const auto compare = [&](const char* what, const std::string& here, const std::string& there) {
         if (here.empty() || model::trim(here) == model::trim(there)) return;
         ignored.push_back(fmt::format("{} '{}'", what, model::trim(here)));
         used.push_back(fmt::format("{} '{}'", what, model::trim(there)));
     };
+    if (!place.constants.empty())
+        out.warning(
+            place.constants.front().at,
+            fmt::format("constants of a linked process are ignored: the file '{}' has its own", place.path),
+            "write them in that file");
     compare("id", place.id, content.id), compare("name", place.name, content.name);
     if (ignored.empty()) return;
     out.warning(
@@ -341,7 +346,7 @@ void link(model::Process& place, model::System& system, Diagnostics& out) {
                   "a linked process cannot lead to another file: empty 'path'");
         return;
     }
-    warn_of_ignored_names(place, content->process, out);
+    warn_of_ignored(place, content->process, out);
     content->process.path = place.path;
     content->process.path_at = place.path_at;
     if (place.icon) content->process.icon = place.icon;

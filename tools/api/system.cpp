@@ -52,7 +52,7 @@ std::string text_of(const SystemFile& file) { return xml::write_system(file.mode
 void save(SystemFile& file, const std::string& path, bool original) {
     model::System moved = file.model;
     model::move_files(moved, file.path, path, *file.types);
-    if (original) model::complete(moved.processes, moved.connections), model::write_out_formulas(moved);
+    if (original) model::make_original(moved);
     write_file(path, xml::write_system(moved));
     file.model = std::move(moved), file.path = path;
 }

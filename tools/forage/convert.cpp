@@ -9,7 +9,6 @@
 #include "core/base/print.h"
 #include "core/base/separated.h"
 #include "core/model/build.h"
-#include "core/model/constants.h"
 #include "core/model/edit.h"
 #include "core/model/lookup.h"
 #include "core/xml/reader.h"
@@ -88,15 +87,7 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
                               "convert SYSTEM.iqr OUT.iqr --import FILE");
             return {};
         }
-        if (o.original) {
-            model::complete({&file->process, 1}, file->connections);
-            model::System alone;
-            alone.processes.push_back(std::move(file->process));
-            alone.connections = std::move(file->connections);
-            model::compute(alone, diagnostics);
-            model::write_out_formulas(alone);
-            file = {std::move(alone.processes.front()), std::move(alone.connections)};
-        }
+        if (o.original) model::make_original(*file, diagnostics);
         return xml::write_process(*file);
     }
     auto system = xml::read_system(o.input, diagnostics);
@@ -109,8 +100,7 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
                 diagnostics.error({std::make_shared<SourceFile>(SourceFile{path, {}})}, e.what());
             }
     if (o.embed) model::embed_links(*system);
-    if (o.original)
-        model::complete(system->processes, system->connections), model::write_out_formulas(*system);
+    if (o.original) model::make_original(*system);
     if (!to_process && !o.extract.empty()) {
         diagnostics.error({},
                           fmt::format("--extract writes a process file, '{}' would be a system", o.output),

@@ -172,10 +172,7 @@ std::optional<model::System> read_any(const std::string& path, Diagnostics& diag
     if (std::filesystem::path(path).extension() != ".iqrProcess") return xml::read_system(path, diagnostics);
     auto file = xml::read_process(path, diagnostics);
     if (!file) return std::nullopt;
-    model::System system;
-    system.name = file->process.name;
-    system.processes.push_back(std::move(file->process));
-    system.connections = std::move(file->connections);
+    model::System system = model::system_of(*std::move(file));
     model::compute(system, diagnostics);
     return system;
 }

@@ -1,9 +1,11 @@
 #include "core/model/constants.h"
 
 #include "core/base/number.h"
+#include "core/model/build.h"
 #include "core/model/changes.h"
 #include "core/model/edit.h"
 #include "core/model/merge.h"
+#include "core/model/operations.h"
 #include "core/model/validate.h"
 #include "core/xml/patch.h"
 #include "core/xml/reader.h"
@@ -193,4 +195,50 @@ TEST_CASE("mistakes in constants and formulas are all reported, and only once") 
     CHECK(mistakes(with("{1000 / ms}", "{1 / dt}")) ==
           "1:46: cylesPerSecond = '{1 / dt}': cylesPerSecond cannot depend on dt, which is 1 / "
           "cylesPerSecond\n");
+}
+
+TEST_CASE("formulas keep their numbers when systems are joined, and when parts are copied") {
+    const System s = read(file_with_constants);
+    System same = s;
+    join(same, s);
+    CHECK(same.constants == s.constants);
+    CHECK(same.connections.back().synapse->settings[0].value == "{-lambda}");
+    System other = s;
+    Diagnostics diagnostics;
+    set(other, test::few_types(), "lambda=0.5", diagnostics);
+    System joined = other;
+    join(joined, s);
+    compute(joined);
+    CHECK(joined.constants == other.constants);
+    CHECK(joined.connections.back().synapse->settings[0].value == "-0.25");
+    System empty;
+    join(empty, s);
+    CHECK(empty.constants == s.constants);
+
+    const auto threshold_of_copy = [&](System into) {
+        const auto text = xml::write_system(copy(s, std::vector<std::string>{"a"}));
+        const auto id = paste(into, read(text), "p", 0, 0).front();
+        compute(into);
+        CHECK(shape(find_group(into, id)->topology).cells == 6);
+        return find_group(into, id)->neuron.settings[0];
+    };
+    CHECK(threshold_of_copy(s).value == "{0.25 + lambda}");
+    set(other, test::few_types(), "P.bias=0.25", diagnostics);
+    CHECK(threshold_of_copy(other).value == "0.5");
+    System bare;
+    add_process(bare, "P", "p");
+    CHECK(threshold_of_copy(bare).value == "0.5");
+}
+
+TEST_CASE("the original gets numbers instead of formulas") {
+    System s = read(file_with_constants);
+    make_original(s);
+    CHECK(xml::write_system(s).find('{') == std::string::npos);
+    CHECK(weight(s) == -0.25);
+    auto file = extract_process(read(file_with_constants), "p");
+    CHECK(xml::write_process(file).find("name=\"channels\" value=\"{2 * 3}\"") != std::string::npos);
+    Diagnostics diagnostics;
+    make_original(file, diagnostics);
+    CHECK_FALSE(diagnostics.failed());
+    CHECK(xml::write_process(file).find('{') == std::string::npos);
 }

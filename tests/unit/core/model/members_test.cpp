@@ -32,7 +32,7 @@ void change(Phantom& phantom) { phantom.y += 1; }
 void change(Setting& setting) { setting.value = "1"; }
 void change(Constant& constant) { constant.name = "k", constant.value = "2", constant.minimum = 0.5; }
 void change(Formulas<System>& formulas) {
-    formulas = {{&System::cycles_per_second, "cylesPerSecond", "{10 + 2.5}", 0, 1e6, false, 12.5, {}}};
+    formulas = {{&System::cycles_per_second, "cylesPerSecond", "{10 + 2.5}", 0, 1e6, true, 12.5, {}}};
 }
 void change(CrossReference& reference) { reference.target = "b"; }
 void change(Topology& topology) { topology = RectTopology{7, 2, false, false}; }

@@ -174,6 +174,18 @@ TEST_CASE("A note that a comment or CDATA section divides is read as a whole") {
     CHECK(system_of(xml::write_system(s)) == s);
 }
 
+TEST_CASE("Constants in the link of a process are not ignored in silence") {
+    const Folder folder;
+    folder.write("brain.iqrProcess", process_text());
+    std::string text = linking_system("brain.iqrProcess");
+    text.insert(text.find('>', text.find("path=\"brain")) + 1, "<Constant name=\"k\" value=\"1\"/>");
+    Diagnostics diagnostics;
+    CHECK(xml::read_system(folder.write("system.iqr", text), diagnostics));
+    REQUIRE(diagnostics.all().size() == 2);
+    CHECK(diagnostics.all()[0].message ==
+          "constants of a linked process are ignored: the file 'brain.iqrProcess' has its own");
+}
+
 TEST_CASE("A linked process is read from its file, with its connections, and written as a link") {
     const Folder folder;
     folder.write("brain.iqrProcess", process_text());
