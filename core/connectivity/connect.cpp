@@ -12,6 +12,8 @@
 namespace forage::connectivity {
 namespace {
 
+enum Stream : std::uint32_t { arbor_stream, attenuation_stream, delay_stream };
+
 /// 100010000 as 100,010,000.
 std::string with_commas(double whole) {
     std::string out = fmt::format("{:.0f}", whole);
@@ -45,12 +47,61 @@ bool is_of_rectangles(const model::Connection& c, const model::Topology& source,
            std::holds_alternative<model::RectTopology>(target);
 }
 
+/// The synapses of a table of weights: those of each target follow each other, in the order of their sources.
+Synapses weighted(const model::Connection& c, const model::Weights& weights, std::size_t sources,
+                  std::uint64_t seed, Diagnostics& diagnostics, std::size_t max) {
+    const Array& array = *weights.array.array;
+    const std::size_t count =
+        weights.is_list ? array.rows() : array.rows() * array.columns() - array.left_out();
+    Synapses out;
+    if (count > max) {
+        diagnostics.error(
+            c.at,
+            fmt::format("connection '{}' is too large: {} weights", c.name,
+                        with_commas(static_cast<double>(count))),
+            fmt::format("a connection has at most {} synapses", with_commas(static_cast<double>(max))));
+        return out;
+    }
+    out.pre.reserve(count), out.post.reserve(count), out.weight.reserve(count);
+    const auto add = [&](double pre, double post, double weight) {
+        out.pre.push_back(static_cast<int>(pre)), out.post.push_back(static_cast<int>(post));
+        out.weight.push_back(weight);
+    };
+    if (weights.is_list) {
+        const auto numbers = array.numbers();
+        std::vector<const double*> rows;
+        for (std::size_t i = 0; i < array.rows(); ++i) rows.push_back(&numbers[i * array.columns()]);
+        std::ranges::sort(rows, {}, [](const double* row) { return std::pair(row[1], row[0]); });
+        for (const double* row : rows) {
+            add(row[0], row[1], row[2]);
+            if (array.columns() > 3) out.delay.push_back(static_cast<int>(row[3]));
+        }
+    } else {
+        // A vector may be a row or a column.
+        const std::size_t in_row = sources, block = std::max<std::size_t>(1, (std::size_t{1} << 18) / in_row);
+        const auto numbers = array.is_vector() ? array.numbers() : std::vector<double>();
+        std::vector<double> some(block * in_row);
+        const std::size_t targets = array.rows() * array.columns() / in_row;
+        for (std::size_t first = 0; first < targets; first += block) {
+            const std::size_t rows = std::min(block, targets - first);
+            const double* values = numbers.data() + first * in_row;
+            if (numbers.empty()) array.copy(first, rows, some.data()), values = some.data();
+            for (std::size_t i = 0; i < rows * in_row; ++i)
+                if (!std::isnan(values[i]))
+                    add(static_cast<double>(i % in_row), static_cast<double>(first + i / in_row), values[i]);
+        }
+    }
+    out.distance.assign(count, 0);
+    out.attenuation.assign(count, 0);
+    if (out.delay.empty()) out.delay = delays(c.delay, out.distance, RandomStream(seed, c.id, delay_stream));
+    return out;
+}
+
 }  // namespace
 
 Synapses connect(const model::Connection& connection, const model::Topology& source_topology,
                  const model::Topology& target_topology, std::uint64_t seed, Diagnostics& diagnostics,
                  std::size_t max) {
-    enum Stream : std::uint32_t { arbor_stream, attenuation_stream, delay_stream };
     for (const auto* topology : {&source_topology, &target_topology}) {
         const GroupShape size = model::shape(*topology);
         if (static_cast<double>(size.width) * size.height > static_cast<double>(model::max_extent)) {
@@ -60,6 +111,9 @@ Synapses connect(const model::Connection& connection, const model::Topology& sou
             return {};
         }
     }
+    if (const auto* weights = std::get_if<model::Weights>(&connection.pattern))
+        return weighted(connection, *weights, static_cast<std::size_t>(model::shape(source_topology).cells),
+                        seed, diagnostics, max);
     const Grid source(source_topology), target(target_topology);
     const bool receptive = connection.arborization.direction == model::Direction::receptive;
     std::size_t paired = 0;

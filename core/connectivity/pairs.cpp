@@ -169,7 +169,8 @@ double max_pairs(const model::Pattern& pattern, const Grid& source, const Grid& 
     if (const auto* foreach = std::get_if<model::ForeachPattern>(&pattern))
         return size(foreach->source, source) * size(foreach->target, target);
     double pairs = 0;
-    for (const auto& tuple : std::get<model::TuplesPattern>(pattern).tuples)
+    const auto* tuples = std::get_if<model::TuplesPattern>(&pattern);  // weights pair no cells themselves
+    for (const auto& tuple : tuples ? tuples->tuples : std::vector<model::TuplesPattern::Tuple>())
         pairs += static_cast<double>(tuple.sources.size()) * static_cast<double>(tuple.targets.size());
     return pairs;
 }
@@ -182,8 +183,8 @@ void for_each_pair(const model::Pattern& pattern, const Grid& source, const Grid
         const auto targets = cells(foreach->target, target, diagnostics);
         for (const auto& s : cells(foreach->source, source, diagnostics))
             for (const auto& t : targets) visit(s, t);
-    } else {
-        visit_tuples(std::get<model::TuplesPattern>(pattern), source, target, visit, diagnostics);
+    } else if (const auto* tuples = std::get_if<model::TuplesPattern>(&pattern)) {
+        visit_tuples(*tuples, source, target, visit, diagnostics);
     }
 }
 

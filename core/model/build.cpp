@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/model/arrays.h"
 #include "core/model/constants.h"
 #include "core/model/lookup.h"
 #include "core/model/refused.h"
@@ -302,6 +303,7 @@ void make_original(System& system) {
 void make_original(ProcessFile& file, Diagnostics& diagnostics) {
     System alone = system_of(std::move(file));
     compute(alone, diagnostics);
+    refuse_arrays(alone, diagnostics);
     make_original(alone);
     file = {std::move(alone.processes.front()), std::move(alone.connections)};
 }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number.h"
+#include "core/model/arrays.h"
 #include "core/model/lookup.h"
 
 namespace forage::model {
@@ -248,6 +249,7 @@ void Constants::check(const std::vector<Constant>& all, const Process* process, 
 }
 
 bool compute(System& system, Diagnostics& diagnostics) {
+    load_arrays(system);
     Constants before(system, std::nullopt);
     compute_numbers(before, system, nullptr, diagnostics);
     Constants constants(system);
@@ -286,6 +288,14 @@ bool has_all(const std::vector<Constant>& all, const std::vector<Constant>& want
 }
 
 void write_out_formulas(System& system) {
+    Constants constants(system);
+    const GroupIndex groups(system);
+    for (auto& p : system.processes)
+        for (auto& g : p.groups)
+            for (auto& i : g.neuron.initial) write_out(i, constants, &p);
+    for (auto& c : system.connections)
+        if (c.synapse)
+            for (auto& i : c.synapse->initial) write_out(i, constants, scope_of(c, groups));
     each_with_formulas(system, [](auto& s, const Process*) { s.formulas.clear(); });
     system.formulas.clear();
     each_setting(system, [](Setting& s, const Process*) {

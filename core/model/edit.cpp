@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <span>
 #include <stdexcept>
 #include <type_traits>
 
@@ -9,6 +10,7 @@
 
 #include "core/base/printable.h"
 #include "core/base/separated.h"
+#include "core/model/arrays.h"
 #include "core/model/build.h"
 #include "core/model/constants.h"
 #include "core/model/expression.h"
@@ -307,12 +309,17 @@ void move_files(System& system, const std::string& from, const std::string& to, 
     for (auto& p : system.processes) {
         auto& written = p.linked() ? p.placeholder.front() : p;
         move(written.path);
+        if (!p.linked())
+            each_array(std::span(&p, 1), std::span<Connection>(), [&](auto& item) { move(item.file); });
         const ModuleType* type = written.module ? registry.module(written.module->type) : nullptr;
         if (!type) continue;
         for (auto& s : written.module->settings)
             for (const auto& parameter : type->parameters)
                 if (parameter.is_path && parameter.name == s.name) move(s.value);
     }
+    for (auto& c : system.connections)
+        if (!c.linked)
+            each_array(std::span<Process>(), std::span(&c, 1), [&](auto& item) { move(item.file); });
 }
 
 void set(System& system, const Assignment& a) {

@@ -103,6 +103,16 @@ std::string first_words(std::string_view text) {
     return std::string(line.substr(0, end)) + "...";
 }
 
+const SynapseUse& synapse_of(const Connection& connection) {
+    static const SynapseUse none, fixed = [] {
+        SynapseUse out;
+        out.type = "synapseFixedWeight";
+        return out;
+    }();
+    if (connection.synapse) return *connection.synapse;
+    return std::holds_alternative<Weights>(connection.pattern) ? fixed : none;
+}
+
 std::string resolved(const std::string& path, const Location& at) {
     if (path.empty() || !at.file) return path;
     return (std::filesystem::path(at.file->path).parent_path() / path).string();

@@ -34,6 +34,7 @@ template <>
 inline constexpr auto members_of<TypeUse> = std::tuple{
     Member{&TypeUse::type, "the type", Effect::rebuild},
     Member{&TypeUse::settings, "the parameters", Effect::parameters},
+    Member{&TypeUse::initial, "the initial values", Effect::rebuild},
     Member{&TypeUse::note, "the note of the type", Effect::none},
     Member{&TypeUse::at, "the location", Effect::none},
 };

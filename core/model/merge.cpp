@@ -61,6 +61,7 @@ class Merger {
         member(what, "the note of the type", base.note, mine.note, note);
         if (mine.type == theirs.type) {
             settings(what, base, mine, theirs);
+            member(what, "the initial values", base.initial, mine.initial, theirs.initial);
             each_member<Use>([&]<class Struct, class T>(const Member<Struct, T>& m) {
                 if constexpr (!std::same_as<Struct, TypeUse>)  // cross references
                     member(where, m.label, base.*m.member, mine.*m.member, theirs.*m.member);

@@ -1,9 +1,11 @@
 // Which cells of the source a connection pairs with which cells of the target.
 #pragma once
 
+#include <string>
 #include <variant>
 #include <vector>
 
+#include "core/base/array.h"
 #include "core/base/diagnostic.h"
 #include "core/model/number_formula.h"
 
@@ -66,6 +68,17 @@ struct TuplesPattern {
     friend bool operator==(const TuplesPattern&, const TuplesPattern&) = default;
 };
 
-using Pattern = std::variant<MappedPattern, ForeachPattern, TuplesPattern>;
+/// A synapse for each number of a table, which is its weight: a matrix with a row for each target cell and a
+/// column for each source cell, or a list of source, target, weight and perhaps delay, with cells from 0.
+struct Weights {
+    std::string file = {};  ///< from the folder of the system's file; empty when `text` has the numbers
+    bool is_list = false;
+    std::string text = {};
+    Location at = {}, file_at = {}, text_at = {};
+    ArrayHandle array = {};
+    friend bool operator==(const Weights&, const Weights&) = default;
+};
+
+using Pattern = std::variant<MappedPattern, ForeachPattern, TuplesPattern, Weights>;
 
 }  // namespace forage::model

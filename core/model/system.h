@@ -46,12 +46,26 @@ struct CrossReference {
     friend bool operator==(const CrossReference&, const CrossReference&) = default;
 };
 
+/// The values with which a state of all cells of a group, or of all synapses of a connection, begins.
+struct Initial {
+    std::string state;
+    /// A number, a formula in braces, "normal(mean, deviation)" or "uniform(low, high)"; empty with a file.
+    std::string value;
+    std::string file = {};  ///< from the system's folder: a number per cell, or targets x sources
+    std::string column =
+        {};  ///< of a table whose first row names the columns; empty for a file of numbers only
+    Location at = {}, state_at = {}, value_at = {}, file_at = {}, column_at = {};
+    ArrayHandle array = {};
+    friend bool operator==(const Initial&, const Initial&) = default;
+};
+
 /// The use of a neuron, synapse or module type, with the parameters that the file sets.
 struct TypeUse {
     std::string type;
     std::vector<Setting> settings;
     std::optional<std::string> note;
     Location at;
+    std::vector<Initial> initial = {};  ///< of neurons and synapses
     friend bool operator==(const TypeUse&, const TypeUse&) = default;
 };
 

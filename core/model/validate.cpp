@@ -11,6 +11,7 @@
 #include "core/base/exception_message.h"
 #include "core/base/named_file.h"
 #include "core/base/separated.h"
+#include "core/model/arrays.h"
 #include "core/model/constants.h"
 #include "core/model/lookup.h"
 #include "core/model/original_types.h"
@@ -60,6 +61,7 @@ class Validator {
           out_(out),
           environment_(environment),
           constants_(system),
+          arrays_(constants_, out),
           groups_(system) {}
 
     void run() {
@@ -262,12 +264,22 @@ class Validator {
         if (const NeuronType* type = registry_.neuron(group.neuron.type)) {
             check_settings(group.neuron, type->parameters);
             check_with_type(group.neuron, *type, trim(group.name));
+            arrays_.initial(group.neuron, names_of(type->states), scope_, cells_of(&group), 1);
         } else {
             const auto unknown =
                 unknown_type("neuron", group.neuron.type, names(registry_.neurons()), registry_);
             out_.error(group.neuron.at, unknown.message, unknown.hint);
         }
         check_topology(group);
+    }
+
+    /// The number of cells of a group; 0 when it is not known.
+    static std::size_t cells_of(const Group* group) {
+        if (!group) return 0;
+        const GroupShape size = shape(group->topology);
+        const bool is_sound = size.width >= 1 && size.height >= 1 &&
+                              static_cast<long long>(size.width) * size.height <= max_extent;
+        return is_sound ? static_cast<std::size_t>(size.cells) : 0;
     }
 
     void check_topology(const Group& group) {
@@ -420,7 +432,7 @@ class Validator {
     }
 
     void check_connection(const Connection& c) {
-        end(c, c.source, c.source_at, "source");
+        const auto source = end(c, c.source, c.source_at, "source");
         const auto target = end(c, c.target, c.target_at, "target");
         if (target) {
             const NeuronType* type = registry_.neuron(target->neuron.type);
@@ -428,18 +440,26 @@ class Validator {
                 out_.warning(c.at, fmt::format("connection '{}' has no effect: {} reads no {} input", c.name,
                                                type->name, name_of(c.kind)));
         }
-        if (!c.synapse) {
+        const bool weighted = std::holds_alternative<Weights>(c.pattern);
+        const auto& use = synapse_of(c);
+        const SynapseType* type = registry_.synapse(use.type);
+        if (!c.synapse && !weighted) {
             out_.error(c.at, fmt::format("connection '{}' has no synapse type", c.name),
                        "add <Synapse name=\"synapseFixedWeight\"/>");
-        } else if (const SynapseType* type = registry_.synapse(c.synapse->type)) {
-            check_settings(*c.synapse, type->parameters);
-            check_with_type(*c.synapse, *type, trim(c.name));
-            check_feedback(*c.synapse, *type, target);
+        } else if (type) {
+            check_settings(use, type->parameters);
+            check_with_type(use, *type, trim(c.name));
+            check_feedback(use, *type, target);
+            std::vector<std::string> states;  // the output is computed before anything reads it
+            for (const auto& s : type->states)
+                if (!s.output) states.push_back(s.name);
+            arrays_.initial(use, states, scope_, cells_of(target), cells_of(source));
         } else {
-            const auto unknown =
-                unknown_type("synapse", c.synapse->type, names(registry_.synapses()), registry_);
-            out_.error(c.synapse->at, unknown.message, unknown.hint);
+            const auto unknown = unknown_type("synapse", use.type, names(registry_.synapses()), registry_);
+            out_.error(use.at, unknown.message, unknown.hint);
         }
+        if (weighted)
+            arrays_.weights(c, type, static_cast<int>(cells_of(source)), static_cast<int>(cells_of(target)));
         check_attenuation(c.attenuation);
         check_delay(c.delay);
     }
@@ -552,6 +572,7 @@ class Validator {
     Diagnostics& out_;
     Environment* environment_;
     Constants constants_;
+    ArrayCheck arrays_;
     const Process* scope_ = nullptr;  ///< whose constants hold in the item that is checked
     int found_by_modules_ = 0;        ///< errors
     int repeated_ids_ = 0;

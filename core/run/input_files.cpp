@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "core/model/arrays.h"
 #include "core/model/validate.h"
 
 namespace forage {
@@ -17,6 +18,7 @@ InputFiles system_files(const model::System& system) {
     InputFiles out;
     add(out, system.at);
     for (const auto& p : system.processes) add(out, p.at);
+    for (const auto& path : model::array_files(system)) out[path] = file_digest(path);
     return out;
 }
 

@@ -15,7 +15,7 @@ namespace forage {
 /// Digests of files by path.
 using InputFiles = std::map<std::string, std::string>;
 
-/// The files of a system: its own, and those of linked processes.
+/// The files of a system: its own, those of linked processes, and those of arrays.
 InputFiles system_files(const model::System& system);
 
 /// The files that parameters of modules name: in the system, in --set, or in a scheduled change. Modules read

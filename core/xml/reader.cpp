@@ -139,6 +139,7 @@ class Reader {
         auto u = of<Use>(e);
         u.note = note(e);
         for (const Element& p : e.children("Parameter")) u.settings.push_back(of<model::Setting>(p));
+        for (const Element& i : e.children("Initial")) u.initial.push_back(located<model::Initial>(i));
         return u;
     }
 
@@ -241,6 +242,14 @@ class Reader {
                 c.terse = true;
         };
         read("Pattern", c.pattern, &Reader::pattern);
+        if (const Element w = e.child("Weights")) {
+            if (const Element p = e.child("Pattern"))
+                out_.error(p.where(), "a connection has either <Pattern> or <Weights>",
+                           "remove <Pattern>: the weights say which cells have a synapse");
+            auto weights = located<model::Weights>(w);
+            weights.text = w.text(), weights.text_at = w.value().where();
+            c.pattern = std::move(weights);
+        }
         read("Arborization", c.arborization, &Reader::arborization);
         read("AttenuationFunction", c.attenuation, &Reader::function);
         read("DelayFunction", c.delay, &Reader::function);

@@ -156,6 +156,7 @@ class Schema : Printer {
             close();
             open("interleave");
             parameters(type.parameters);
+            initial(type);
             holders(type);
             open("optional"), reference("Note"), close();
             close();
@@ -184,6 +185,10 @@ class Schema : Printer {
             close();
         }
         close(), close(), close();
+    }
+
+    void initial(const auto& type) {
+        if constexpr (requires { type.states; }) open("zeroOrMore"), reference("Initial"), close();
     }
 
     template <class Places>

@@ -107,6 +107,21 @@ inline auto system_elements() {
             {{&Setting::name, name_of(Names::parameter, "as the type declares it"), &Setting::name_at},
              {&Setting::value, naming(Names::value, required(text("value", "its value"))),
               &Setting::value_at}}),
+        element<Initial>(
+            "Initial", "with what a state of all cells or synapses begins", "",
+            {{&Initial::state, required(text("state", "as the type declares it")), &Initial::state_at},
+             {&Initial::value,
+              omit_default(text(
+                  "value", "a number, a formula in braces, normal(mean, deviation) or uniform(low, high)")),
+              &Initial::value_at},
+             {&Initial::file,
+              omit_default(text("file",
+                                "a .npy or CSV file, relative to this file: a number per cell; of "
+                                "synapses, a row per target cell and a column per source cell")),
+              &Initial::file_at},
+             {&Initial::column,
+              omit_default(text("column", "of a CSV file whose first row names its columns")),
+              &Initial::column_at}}),
         ElementRule{"XRefHolder",
                     "a list of cross references",
                     "XRef",
@@ -140,17 +155,30 @@ inline auto system_elements() {
             "Point", "a cell, or a vertex of a line", "",
             {{&Point::x, decisive(coordinate("x", "column of a cell, from 1; of a vertex: pixels"))},
              {&Point::y, decisive(coordinate("y", "row of a cell, from 1; of a vertex: pixels"))}}),
-        element<TypeUse>("Neuron", "the type of a group's cells", "Parameter Note?",
+        element<TypeUse>("Neuron", "the type of a group's cells", "Parameter Initial Note?",
                          {{&TypeUse::type, name_of(Names::neuron, "the neuron type"), &TypeUse::at}}),
         element<Connection>(
             "Connection", "synapses from one group to another",
-            "Pattern? Arborization? AttenuationFunction? DelayFunction? Synapse? Note? DiagramLine?",
+            "Pattern? Weights? Arborization? AttenuationFunction? DelayFunction? Synapse? Note? DiagramLine?",
             {{&Connection::id, id()},
              {&Connection::name, name()},
              {&Connection::kind,
               choice("type", "how it acts on its target", {"excitatory", "inhibitory", "modulatory"})},
              {&Connection::source, group("source"), &Connection::source_at},
              {&Connection::target, group("target"), &Connection::target_at}}),
+        element<Weights>(
+            "Weights", "in place of a pattern: the weight of each synapse, in a file or as rows of numbers",
+            ":text",
+            {{&Weights::file,
+              omit_default(
+                  text("file", "a .npy or CSV file, relative to this file; empty: the element's text")),
+              &Weights::file_at},
+             {&Weights::is_list,
+              omit_default(
+                  choice("form",
+                         "a row per target cell and a column per source cell, or a row source, target, "
+                         "weight, perhaps delay per synapse, with cells from 0",
+                         {"matrix", "list"}))}}),
         ElementRule{"Pattern", "which cells are paired", "PatternMapped PatternForeach PatternTuples", {}, 1},
         ElementOf<MappedPattern>{
             .name = "PatternMapped",
@@ -211,7 +239,7 @@ inline auto system_elements() {
              {&BlockFunction::height, omit_default(whole("height", "without effect", 0))}}),
         element<RandomFunction>("FunRandom", "random between 0 and max", "", {{&RandomFunction::max, max()}}),
         element<SynapseUse>(
-            "Synapse", "the type of a connection's synapses", "Parameter XRefHolder Note?",
+            "Synapse", "the type of a connection's synapses", "Parameter Initial XRefHolder Note?",
             {{&SynapseUse::type, name_of(Names::synapse, "the synapse type"), &SynapseUse::at}}),
         element<Line>(
             "DiagramLine", "the line that draws a connection", "Point",

@@ -88,6 +88,7 @@ class Writer : Printer {
     void use(const auto& u) {
         begin(u);
         for (const auto& s : u.settings) leaf_of(s);
+        for (const auto& i : u.initial) leaf_of(i);
     }
     void end_use(const model::TypeUse& u) { note(u.note), close(); }
     void references(const char* holder, const std::vector<model::CrossReference>& all) {
@@ -166,7 +167,12 @@ class Writer : Printer {
             return !c.terse || part != std::remove_cvref_t<decltype(part)>{};
         };
         const auto* mapped = std::get_if<model::MappedPattern>(&c.pattern);
-        if (written(c.pattern) || (mapped && mapped->is_stated)) pattern(c.pattern);
+        if (const auto* weights = std::get_if<model::Weights>(&c.pattern)) {
+            begin(*weights);
+            if (!weights->text.empty()) text(weights->text);
+            close();
+        } else if (written(c.pattern) || (mapped && mapped->is_stated))
+            pattern(c.pattern);
         if (written(c.arborization)) arborization(c.arborization);
         if (written(c.attenuation)) function("AttenuationFunction", c.attenuation);
         if (written(c.delay)) function("DelayFunction", c.delay);

@@ -18,6 +18,7 @@ namespace {
 typedef double Lanes __attribute__((vector_size(SourceLayout::lanes * sizeof(double))));  // NOLINT
 
 constexpr int max_together = 4;
+constexpr double max_places = 1.5;  // per synapse
 /// Sources whose weights are added together, one after the other, so that sums are read and written once.
 struct Together {
     const double* weights[max_together];
@@ -62,6 +63,26 @@ class BySource final : public SharedKernel {
         for (int t = 0; t < std::ssize(s.start) - 1; ++t)
             for (int i = s.start[t]; i < s.start[t + 1]; ++i)
                 weights_[layout_.place(s.pre[i], t)] = s.factor[i];
+    }
+    /// Of a matrix, targets x sources.
+    BySource(SourceLayout layout, const Array& matrix, int delay)
+        : layout_(std::move(layout)), delay_(delay) {
+        weights_.resize(layout_.places);
+        constexpr std::size_t rows = 64, tile = 8;  // a tile is one line of the cache in each row
+        const std::size_t targets = layout_.target.cells, sources = layout_.sources.size();
+        std::vector<double> some(rows * sources);
+        for (std::size_t first = 0; first < targets; first += rows) {
+            const std::size_t count = std::min(rows, targets - first);
+            matrix.copy(first, count, some.data());
+            for (std::size_t s = 0; s < sources; s += tile) {
+                const std::size_t width = std::min(tile, sources - s);
+                double turned[tile][rows];
+                for (std::size_t t = 0; t < count; ++t)
+                    for (std::size_t i = 0; i < width; ++i) turned[i][t] = some[t * sources + s + i];
+                for (std::size_t i = 0; i < width; ++i)
+                    std::copy_n(turned[i], count, &weights_[layout_.sources[s + i].place + first]);
+            }
+        }
     }
     std::unique_ptr<Workspace> make_workspace() const override {
         auto out = std::make_unique<Work>();
@@ -170,8 +191,18 @@ class BySource final : public SharedKernel {
 
 }  // namespace
 
+bool fits_matrix(const Array& weights, GroupShape target) {
+    constexpr int least_targets = 8;
+    const auto places = static_cast<double>(weights.rows()) * static_cast<double>(weights.columns());
+    return target.cells >= least_targets &&
+           places <= max_places * (places - static_cast<double>(weights.left_out()));
+}
+
+std::unique_ptr<Kernel> make_kernel(const Array& weights, GroupShape source, GroupShape target, int delay) {
+    return std::make_unique<BySource>(lay_out_all(source, target), weights, delay);
+}
+
 std::unique_ptr<Kernel> make_by_source(const ByTarget& s, GroupShape source, GroupShape target) {
-    constexpr double max_places = 1.5;                        // per synapse
     constexpr std::size_t least_dense = 8, least_local = 32;  // synapses per source; each source has its cost
     const auto sources = static_cast<std::size_t>(source.cells);
     const auto alike = [](const auto& all) {

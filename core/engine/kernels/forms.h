@@ -1,6 +1,7 @@
 // The forms of connections. Each is a file of its own; all give the bits of the list.
 #pragma once
 
+#include "core/base/array.h"
 #include "core/connectivity/connect.h"
 #include "core/connectivity/regular.h"
 #include "core/engine/kernels/kernel.h"
@@ -29,6 +30,10 @@ std::unique_ptr<Kernel> make_kernel(connectivity::Synapses synapses, GroupShape 
                                     Forms forms);
 /// Makes a kernel for a connection that is the same everywhere, and whose synapses multiply by a constant.
 std::unique_ptr<Kernel> make_kernel(const connectivity::Regular& regular, int target_cells);
+/// Whether a matrix of weights (targets x sources) has so many numbers that no list of synapses is needed.
+bool fits_matrix(const Array& weights, GroupShape target);
+/// Makes a kernel for such a matrix.
+std::unique_ptr<Kernel> make_kernel(const Array& weights, GroupShape source, GroupShape target, int delay);
 /// Makes a kernel for synapses with an update(), and reserves room for their states. `reads_states` says that
 /// PlasticKernel::state() will be called.
 std::unique_ptr<PlasticKernel> make_plastic(connectivity::Synapses synapses, GroupShape source,

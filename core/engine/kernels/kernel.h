@@ -92,6 +92,8 @@ class PlasticKernel : public Kernel {
   public:
     /// Writes the initial states of all synapses.
     virtual void begin(double* numbers) const = 0;
+    /// Sets state `i` of the type, per synapse in synapse order.
+    virtual void set_state(double* numbers, int i, std::span<const double> values) const = 0;
     /// Updates the synapses, as deliver() does, and delivers nothing. Connections of a kind that their target
     /// does not read learn all the same.
     virtual void learn(const KernelInput& in) const = 0;

@@ -80,6 +80,10 @@ class PlasticBySource final : public PlasticKernel {
         for (int i = 0; i < std::ssize(states_); ++i)
             if (keeps(i)) std::fill_n(numbers + states_[i], layout_.places, type_.states[i].initial);
     }
+    void set_state(double* numbers, int i, std::span<const double> values) const override {
+        for (std::size_t k = 0; keeps(i) && k < values.size(); ++k)
+            numbers[states_[i] + place_[k]] = values[k];
+    }
     void learn(const KernelInput& in) const override { update(in, nullptr); }
     void deliver(const KernelInput& in, double* target, bool first) const override {
         if (first) std::fill_n(target, target_.cells * target_.lines, 0.0);

@@ -34,6 +34,9 @@ class PlasticList final : public PlasticKernel {
         for (std::size_t i = 0; i < states_.size(); ++i)
             std::fill_n(numbers + states_[i], size_, type_.states[i].initial);
     }
+    void set_state(double* numbers, int i, std::span<const double> values) const override {
+        std::ranges::copy(values, numbers + states_[i]);
+    }
     void learn(const KernelInput& in) const override {
         for (Index first = 0; first < size_; first += block)
             learn_block(in, first, std::min(block, size_ - first));

@@ -85,6 +85,10 @@ SourceLayout local_layout(const Lines& source, const Lines& target, bool columns
 
 }  // namespace
 
+SourceLayout lay_out_all(GroupShape source, GroupShape target) {
+    return dense_layout(Lines(one_line(source), false), target);
+}
+
 std::optional<SourceLayout> lay_out_by_source(const ByTarget& s, GroupShape source, GroupShape target,
                                               double most) {
     const auto reach = reach_of(s, source.cells, target);

@@ -57,6 +57,8 @@ struct SourceLayout {
     }
 };
 
+/// The layout of a connection from every source to every target.
+SourceLayout lay_out_all(GroupShape source, GroupShape target);
 /// Finds the layout with the fewest places, at most `most` per synapse, in which every target sums its
 /// synapses in synapse order. Returns nothing if there is none, also if two synapses connect the same cells.
 std::optional<SourceLayout> lay_out_by_source(const ByTarget& synapses, GroupShape source, GroupShape target,

@@ -1,12 +1,15 @@
 #include "core/engine/plan/compile.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <new>
 
 #include <fmt/format.h>
 
 #include "core/base/exception_message.h"
 #include "core/connectivity/warn.h"
+#include "core/model/arrays.h"
 #include "core/model/validate.h"
 
 namespace forage::engine {
@@ -46,6 +49,8 @@ class Compiler {
     Compiler(const model::System& system, Layout layout, const Demand& demand, const Options& options,
              Diagnostics& diagnostics)
         : system_(system),
+          constants_(system),
+          groups_of_(system),
           order_(system),
           demand_(demand),
           options_(options),
@@ -70,6 +75,7 @@ class Compiler {
             lay_out();
             order_steps(*plan_);
             state_->begin(*plan_);
+            for (const auto& set : initial_) set();
         } catch (const std::bad_alloc&) {
             budget_.report_exhausted(diagnostics_);
             return {};
@@ -119,6 +125,7 @@ class Compiler {
             }
             state_->groups.emplace_back().neuron = make(about.type, g->neuron);
             if (plan.pruned) continue;
+            add_initial(*g, about, i);
             budget_.add(rows, plan.cells, g->at,
                         fmt::format("group '{}': {} numbers x {} cells", about.path, rows, plan.cells));
         }
@@ -166,8 +173,9 @@ class Compiler {
             plan.effective = about.effective;
             plan.pruned = pruned_.connections[i];
             plan.reads_states = demand_.reads_synapses(i);
-            state_->connections.emplace_back().synapse = make(about.type, *c->synapse);
-            if (!(forms_ == Forms::fastest && about.type.has_gain && make_regular(*c, plan)))
+            state_->connections.emplace_back().synapse = make(about.type, model::synapse_of(*c));
+            if (!(forms_ == Forms::fastest && about.type.has_gain &&
+                  (make_regular(*c, plan) || make_matrix(*c, plan))))
                 make_list(*c, about, plan);
             if (!plan.kernel) continue;  // pruned, or reported
             auto& target = plan_->groups[plan.target];
@@ -195,6 +203,25 @@ class Compiler {
         return true;
     }
 
+    /// For a matrix of weights that nearly all cells have. Without a kernel as after make_regular().
+    bool make_matrix(const model::Connection& c, ConnectionPlan& plan) {
+        const auto* weights = std::get_if<model::Weights>(&c.pattern);
+        const auto* delay = std::get_if<model::UniformFunction>(&c.delay.form);
+        if (!weights || weights->is_list || !delay) return false;
+        const auto& source = layout_.groups[plan.source].shape;
+        const auto& target = layout_.groups[plan.target].shape;
+        const auto& array = *weights->array.array;
+        if (!fits_matrix(array, target)) return false;
+        plan.synapses = array.rows() * array.columns() - array.left_out();
+        plan.longest_delay = std::max(0, static_cast<int>(delay->value));
+        if (plan.pruned) return true;
+        lengthen(c, plan);
+        budget_.add(static_cast<double>(array.columns()), target.cells, c.at,
+                    fmt::format("connection '{}': {} x {} weights", c.name, array.rows(), array.columns()));
+        if (!budget_.exceeded()) plan.kernel = make_kernel(array, source, target, plan.longest_delay);
+        return true;
+    }
+
     /// Without a kernel when it is pruned, or cannot be made: reported.
     void make_list(const model::Connection& c, const Layout::Connection& about, ConnectionPlan& plan) {
         auto synapses = connectivity::connect(c, topology_of(plan.source), topology_of(plan.target),
@@ -202,6 +229,12 @@ class Compiler {
         if (synapses.size() == 0) return;
         connectivity::warn_of_wiring(c, *order_.groups[plan.source], *order_.groups[plan.target], synapses,
                                      diagnostics_);
+        if (about.type.has_gain) {
+            for (std::size_t i = 0; i < synapses.weight.size(); ++i)
+                synapses.attenuation[i] = -synapses.weight[i];
+            if (!synapses.weight.empty()) synapses.reference = 0;
+            synapses.weight = std::vector<double>();
+        }
         synapses.distance = std::vector<double>();  // attenuation and delay say it all
         plan.synapses = synapses.size();
         plan.longest_delay = *std::max_element(synapses.delay.begin(), synapses.delay.end());
@@ -216,6 +249,10 @@ class Compiler {
         if (plan.pruned) return;
         add_synapse_states(c, about.type, plan);
         if (budget_.exceeded()) return;
+        add_initial(c, about, plan, synapses);
+        const int number = static_cast<int>(plan_->connections.size()) - 1;
+        if (!synapses.weight.empty())
+            set_synapses(number, state_named(about.type, "weight"), std::move(synapses.weight));
         if (plan.reads_states) plan.pre = synapses.pre, plan.post = synapses.post;
         plan.first_number = plan_->rows.size();
         auto kernel = make_plastic(std::move(synapses), source, target, about.type, plan.reads_states,
@@ -268,6 +305,58 @@ class Compiler {
         return out;
     }
 
+    static int state_named(const auto& type, std::string_view name) {
+        const auto it = std::ranges::find(type.states, name, [](const auto& s) { return s.name; });
+        return static_cast<int>(it - type.states.begin());
+    }
+    /// What random initial values are drawn from: none of the streams in which types and connections draw.
+    RandomStream initial_stream(const std::string& id, int state) const {
+        return {options_.seed, id, 0x1000u + static_cast<std::uint32_t>(state)};
+    }
+
+    void add_initial(const model::Group& g, const Layout::Group& about, int number) {
+        for (const auto& i : g.neuron.initial) {
+            const int state = state_named(about.type, i.state);
+            initial_.push_back([this, &i, &g, &about, number, state] {
+                const auto values = model::initial_values(i, constants_, groups_of_.find(g.id).process,
+                                                          initial_stream(g.id, state),
+                                                          static_cast<std::size_t>(about.shape.cells));
+                const auto& ring = state_->groups[number].states[state];
+                for (std::int64_t row = 0; row < ring.depth; ++row)
+                    std::ranges::copy(values, ring.ring + row * plan_->groups[number].stride);
+            });
+        }
+    }
+
+    void add_initial(const model::Connection& c, const Layout::Connection& about, const ConnectionPlan& plan,
+                     const connectivity::Synapses& synapses) {
+        for (const auto& i : model::synapse_of(c).initial) {
+            const int state = state_named(about.type, i.state);
+            std::vector<std::size_t> index;  // into targets x sources
+            const auto sources = static_cast<std::size_t>(layout_.groups[plan.source].shape.cells);
+            for (std::size_t n = 0; i.array && n < synapses.size(); ++n)
+                index.push_back(static_cast<std::size_t>(synapses.post[n]) * sources +
+                                static_cast<std::size_t>(synapses.pre[n]));
+            auto values = model::initial_values(i, constants_, model::scope_of(c, groups_of_),
+                                                initial_stream(c.id, state), synapses.size(), index);
+            const auto none =
+                std::ranges::find_if(values, [](double v) { return std::isnan(v); }) - values.begin();
+            if (none < std::ssize(values))
+                diagnostics_.error(
+                    i.file_at,
+                    fmt::format("the state '{}' of the synapse from cell {} to cell {} has no number",
+                                i.state, synapses.pre[none], synapses.post[none]),
+                    "only cells without a synapse may have none; cells count from 0");
+            set_synapses(static_cast<int>(plan_->connections.size()) - 1, state, std::move(values));
+        }
+    }
+    void set_synapses(int number, int state, std::vector<double> values) {
+        initial_.push_back([this, number, state, values = std::move(values)] {
+            const auto* plastic = plan_->connections[number].plastic;
+            if (plastic) plastic->set_state(state_->numbers.data(), state, values);
+        });
+    }
+
     /// What every cycle touches lies together: states and one row of each input that is delivered.
     void lay_out() {
         Rows& rows = plan_->rows;
@@ -293,6 +382,8 @@ class Compiler {
     }
 
     const model::System& system_;
+    model::Constants constants_;
+    model::GroupIndex groups_of_;
     UpdateOrder order_;
     const Demand& demand_;
     const Options& options_;
@@ -303,6 +394,7 @@ class Compiler {
     const Layout& layout_;
     Pruned pruned_;
     Budget budget_;
+    std::vector<std::function<void()>> initial_;  ///< set the values with which the states begin
 };
 
 }  // namespace

@@ -74,7 +74,7 @@ std::optional<Layout> make_layout(const model::System& system, const Registry& r
     }
     for (const auto* c : order.connections) {
         const int target = number(c->target);
-        out.connections.push_back({c->id, c->name, *registry.synapse(c->synapse->type), c->kind,
+        out.connections.push_back({c->id, c->name, *registry.synapse(model::synapse_of(*c).type), c->kind,
                                    number(c->source), target,
                                    out.groups[target].type.reads[static_cast<std::size_t>(c->kind)]});
     }

@@ -30,6 +30,7 @@ void change(Icon& icon) { icon.x += 1; }
 void change(Line& line) { line.source_anchor += 1; }
 void change(Phantom& phantom) { phantom.y += 1; }
 void change(Setting& setting) { setting.value = "1"; }
+void change(Initial& initial) { initial.state = "vm", initial.value = "1"; }
 void change(Constant& constant) { constant.name = "k", constant.value = "2", constant.minimum = 0.5; }
 void change(Formulas<System>& formulas) {
     formulas = {{&System::cycles_per_second, "cylesPerSecond", "{10 + 2.5}", 0, 1e6, true, 12.5, {}}};
@@ -107,6 +108,9 @@ void each_change(const std::function<void(const System&, const System&, const st
                               change(value), what = label, means = effect;
                   });
         INFO(what);
+        if (what == "the initial values" &&
+            after.processes[0].module->initial.size() + after.processes[1].module->initial.size() > 0)
+            continue;  // modules have none
         f(before, after, what, means);
     }
     CHECK(members > 80);

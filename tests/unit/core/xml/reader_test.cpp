@@ -241,7 +241,9 @@ TEST_CASE("An attribute that is absent has the default of the format table") {
         "<ArbEllipseWindow innerwidth=\"1\" innerheight=\"2\" outerwidth=\"3\" outerheight=\"4\" "
         "direction=\"PF\" initialization_probability=\"0.5\"/>";
     std::vector<std::string> texts{small_system,
-                                   replaced(small_system, pattern, "<PatternMapped type=\"all\"/>")};
+                                   replaced(small_system, pattern, "<PatternMapped type=\"all\"/>"),
+                                   replaced(small_system, "<Pattern>" + pattern + "</Pattern>",
+                                            "<Weights form=\"list\">0 0 1</Weights>")};
     for (const char* shape :
          {"ArbRect width=\"3\" height=\"4\"", "ArbEllipse width=\"3\" height=\"4\"",
           "ArbRectWindow innerwidth=\"1\" innerheight=\"2\" outerwidth=\"3\" outerheight=\"4\"", "ArbAll",
