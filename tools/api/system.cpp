@@ -4,6 +4,8 @@
 #include <forage/system.h>
 
 #include "core/base/output_files.h"
+#include "core/model/arrays.h"
+#include "core/model/lookup.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
 #include "tools/api/describe/system_description.h"
@@ -52,7 +54,12 @@ std::string text_of(const SystemFile& file) { return xml::write_system(file.mode
 void save(SystemFile& file, const std::string& path, bool original) {
     model::System moved = file.model;
     model::move_files(moved, file.path, path, *file.types);
-    if (original) model::make_original(moved);
+    if (original) {
+        Diagnostics diagnostics;
+        model::refuse_arrays(moved, diagnostics);
+        throw_errors(diagnostics);
+        model::make_original(moved);
+    }
     write_file(path, xml::write_system(moved));
     file.model = std::move(moved), file.path = path;
 }
@@ -105,7 +112,7 @@ SynapseTable synapses(const SystemFile& file, const std::string& id, std::uint64
     const auto it = std::ranges::find(file.model.connections, id, &model::Connection::id);
     if (it == file.model.connections.end())
         throw InputError(fmt::format("there is no connection with the id '{}'", id));
-    const auto* type = it->synapse ? file.types->synapse(it->synapse->type) : nullptr;
+    const auto* type = file.types->synapse(model::synapse_of(*it).type);
     std::optional<engine::Simulation> simulation;  // weights that are learned begin as states
     if (type && !type->has_gain) simulation = compile(file, {}, seed, diagnostics);
     throw_errors(diagnostics);

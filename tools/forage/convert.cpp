@@ -8,6 +8,7 @@
 #include "core/base/output_files.h"
 #include "core/base/print.h"
 #include "core/base/separated.h"
+#include "core/model/arrays.h"
 #include "core/model/build.h"
 #include "core/model/edit.h"
 #include "core/model/lookup.h"
@@ -100,7 +101,7 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
                 diagnostics.error({std::make_shared<SourceFile>(SourceFile{path, {}})}, e.what());
             }
     if (o.embed) model::embed_links(*system);
-    if (o.original) model::make_original(*system);
+    if (o.original) model::refuse_arrays(*system, diagnostics), model::make_original(*system);
     if (!to_process && !o.extract.empty()) {
         diagnostics.error({},
                           fmt::format("--extract writes a process file, '{}' would be a system", o.output),

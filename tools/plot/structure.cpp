@@ -33,8 +33,9 @@ std::vector<double> strengths(const model::Connection& c, const connectivity::Sy
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = synapses.reference - synapses.attenuation[i];
     if (type.has_gain) {
         const auto instance = type.make();
-        model::apply(c.synapse->settings, type.parameters, instance->parameters());
+        model::apply(model::synapse_of(c).settings, type.parameters, instance->parameters());
         for (double& v : out) v *= instance->gain();
+        for (std::size_t i = 0; i < synapses.weight.size(); ++i) out[i] *= synapses.weight[i];
         return out;
     }
     const auto weight = std::ranges::find(type.states, "weight", &SynapseStateInfo::name);
@@ -80,7 +81,7 @@ Picture picture_of(const model::Connection& c, bool wiring, const model::System&
     WiringPlot p = groups_of(c, system);
     const model::GroupIndex groups(system);
     const auto source = groups.find(c.source), target = groups.find(c.target);
-    const SynapseType* type = c.synapse ? registry.synapse(c.synapse->type) : nullptr;
+    const SynapseType* type = registry.synapse(model::synapse_of(c).type);
     if (!type)
         throw std::runtime_error(
             fmt::format("connection '{}' is not complete: 'forage check' says what is wrong", c.name));
@@ -103,7 +104,7 @@ ConnectionSynapses synapses_of(const model::Connection& c, const model::System& 
                                std::uint64_t seed, Diagnostics& diagnostics) {
     const model::GroupIndex groups(system);
     const auto source = groups.find(c.source), target = groups.find(c.target);
-    const SynapseType* type = c.synapse ? registry.synapse(c.synapse->type) : nullptr;
+    const SynapseType* type = registry.synapse(model::synapse_of(c).type);
     if (!source.group || !target.group || !type) {
         diagnostics.error({}, fmt::format("connection '{}' is not complete", c.name));
         return {};

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
 #include "tools/python/values.h"
@@ -13,7 +14,7 @@ using namespace py::literals;
 
 constexpr const char* directions[] = {"receptive", "projective", nullptr};
 /// The constructors, in the order of the variants of the model.
-constexpr const char* patterns[] = {"mapped", "foreach", "tuples"};
+constexpr const char* patterns[] = {"mapped", "foreach", "tuples", "weights"};
 constexpr const char* shapes[] = {"rect", "ellipse", "rect_window", "ellipse_window", "all", "random"};
 constexpr const char* functions[] = {"uniform", "linear", "gaussian", "block", "random"};
 
@@ -52,6 +53,30 @@ PythonPattern tuples(const std::vector<std::pair<py::iterable, py::iterable>>& p
     return {std::move(out)};
 }
 
+/// A table of numbers as the text of a file; a text is the name of a file.
+PythonPattern weights(const py::object& numbers, bool list) {
+    model::Weights out;
+    out.is_list = list;
+    if (py::isinstance<py::str>(numbers) || py::hasattr(numbers, "__fspath__")) {
+        out.file = py::module_::import("os").attr("fspath")(numbers).cast<std::string>();
+        return {std::move(out)};
+    }
+    constexpr py::ssize_t max_numbers = 1'000'000;
+    const auto array = argument<py::array_t<double, py::array::c_style | py::array::forcecast>>(
+        numbers, "weights", "the name of a file or an array of numbers");
+    if (array.ndim() != 2) throw InputError("weights: the array needs two dimensions", "targets x sources");
+    if (array.size() > max_numbers)
+        throw InputError(
+            fmt::format("weights: {} numbers are too many for the text of a system", array.size()),
+            "numpy.save('w.npy', weights) and give the name of the file");
+    for (py::ssize_t row = 0; row < array.shape(0); ++row) {
+        for (py::ssize_t i = 0; i < array.shape(1); ++i)
+            out.text += fmt::format("{}{}", i > 0 ? " " : "", array.at(row, i));
+        out.text += '\n';
+    }
+    return {std::move(out)};
+}
+
 /// The cells at one end of a pattern; a list per tuple of a pattern of tuples.
 py::object cells(const model::Pattern& pattern, bool source) {
     if (const auto* tuples = std::get_if<model::TuplesPattern>(&pattern)) {
@@ -74,6 +99,9 @@ std::string repr(const PythonPattern& self) {
         const py::object zipped =
             py::module_::import("builtins").attr("zip")(cells(pattern, true), cells(pattern, false));
         arguments.push_back(repr_of(py::list(zipped)));
+    } else if (const auto* w = std::get_if<model::Weights>(&pattern)) {
+        arguments.push_back(repr_of(py::str(w->file.empty() ? w->text : w->file)));
+        if (w->is_list) arguments.emplace_back("list=True");
     } else {
         const auto source = cells(pattern, true), target = cells(pattern, false);
         if (!source.is_none() || !target.is_none()) arguments = {repr_of(source), repr_of(target)};
@@ -164,9 +192,14 @@ all: whether a cell is paired with every cell under its projection, not only wit
                     "Pairs every cell of the source with every cell of the target.")
         .def_static("tuples", &tuples, "pairs"_a,
                     "Pairs each cell of a list with each cell of another: tuples([(sources, targets), ...]).")
+        .def_static("weights", &weights, "numbers"_a, py::kw_only(), "list"_a = false,
+                    R"(A synapse for each number, which is its weight.
+
+numbers: an array with a row for each cell of the target and a column for each cell of the source, or the name of a .npy or CSV file, relative to that of the system; nan: no synapse.
+list: whether it has rows source, target, weight and perhaps delay instead; cells count from 0, row by row.)")
         .def_property_readonly(
             "kind", [](const PythonPattern& self) { return patterns[self.value.index()]; },
-            R"("mapped", "foreach" or "tuples".)")
+            R"("mapped", "foreach", "tuples" or "weights".)")
         .def_property_readonly(
             "source", [](const PythonPattern& self) { return cells(self.value, true); },
             "The cells of the source in the given order; a list of lists of a pattern of tuples.")

@@ -22,6 +22,11 @@ Cases(F...) -> Cases<F...>;
 TypeDescription describe(const model::TypeUse& use) {
     TypeDescription out{use.type, {}};
     for (const auto& s : use.settings) out.parameters.emplace_back(s.name, s.in_force(ParameterKind::real));
+    for (const auto& i : use.initial)
+        out.parameters.emplace_back(
+            i.state + " at start",
+            i.file.empty() ? i.value
+                           : fmt::format("{}{}", i.file, i.column.empty() ? "" : ", column " + i.column));
     return out;
 }
 
@@ -58,6 +63,10 @@ std::string describe(const model::Pattern& pattern) {
                             [](const model::TuplesPattern& p) {
                                 return fmt::format("{} tuple{} of cells", p.tuples.size(),
                                                    p.tuples.size() == 1 ? "" : "s");
+                            },
+                            [](const model::Weights& w) {
+                                return fmt::format("{} of weights{}", w.is_list ? "list" : "matrix",
+                                                   w.file.empty() ? "" : " in " + w.file);
                             }},
                       pattern);
 }
@@ -200,10 +209,11 @@ SystemDescription describe(const model::System& system, const engine::Simulation
              .synapses = built ? compiled->synapses(number->second) : 0,
              .form = built ? std::string(compiled->connection_form(number->second)) : "not built",
              .pattern = describe(c.pattern),
-             .arborization = describe(c.arborization),
+             .arborization = std::holds_alternative<model::Weights>(c.pattern) ? "one synapse for each number"
+                                                                               : describe(c.arborization),
              .attenuation = describe(c.attenuation),
              .delay = describe(c.delay),
-             .synapse = c.synapse ? describe(*c.synapse) : TypeDescription{},
+             .synapse = describe(model::synapse_of(c)),
              .notes = c.note.value_or("")});
     }
     return out;

@@ -128,6 +128,11 @@ json json_of(const Pattern& pattern) {
         return {{"form", "foreach"},
                 {"source", population_of(each->source)},
                 {"target", population_of(each->target)}};
+    if (const auto* weights = std::get_if<Weights>(&pattern))
+        return {{"form", "weights"},
+                {"file", weights->file},
+                {"list", weights->is_list},
+                {"text", weights->text}};
     json tuples = json::array();
     for (const auto& t : std::get<TuplesPattern>(pattern).tuples)
         tuples.push_back({{"source", points_of(t.sources)}, {"target", points_of(t.targets)}});
@@ -142,6 +147,8 @@ Pattern pattern_from(const json& pattern) {
                              population_from(pattern, "target"), pattern.contains("mapping")};
     if (name == "foreach")
         return ForeachPattern{population_from(pattern, "source"), population_from(pattern, "target")};
+    if (name == "weights")
+        return Weights{pattern.value("file", ""), pattern.value("list", false), pattern.value("text", "")};
     if (name != "tuples") no_form("a pattern", name);
     TuplesPattern out;
     for (const auto& t : pattern.at("tuples"))

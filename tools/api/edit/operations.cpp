@@ -300,8 +300,8 @@ const std::vector<Operation<SystemEdit>>& system_operations() {
              {id,
               {"pattern", any(),
                R"(`{"form": "mapped", "mapping": "center"}` or `"all"`, `{"form": "foreach"}`, each with )"
-               R"(`source` and `target`; or `{"form": "tuples", "tuples": [{"source": [[x, y]], "target": )"
-               R"([[x, y]]}]}`)"}},
+               R"(`source` and `target`; `{"form": "tuples", "tuples": [{"source": [[x, y]], "target": )"
+               R"([[x, y]]}]}`; or `{"form": "weights", "file": "w.npy"}` with `list` and `text`)"}},
              &SystemEdit::pattern},
             {"arborization",
              "Sets the arborization of a connection.",

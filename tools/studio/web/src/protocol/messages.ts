@@ -240,7 +240,8 @@ export type Tuple = { source: Place[]; target: Place[] };
 export type Pattern =
   | { form: 'foreach'; source: Region; target: Region }
   | { form: 'mapped'; mapping: 'center' | 'all'; source: Region; target: Region }
-  | { form: 'tuples'; tuples: Tuple[] };
+  | { form: 'tuples'; tuples: Tuple[] }
+  | { form: 'weights'; file: string; list: boolean; text: string };
 
 /** A type with values of its parameters: an arborization or a function of distance. */
 export type Typed = { type: string; values: Record<string, ParameterValue> };

@@ -44,7 +44,8 @@ const everything: Region = { form: 'all' };
 
 /** A pattern of another form, which keeps what the forms have in common. */
 export function reform(pattern: Pattern | null, form: Pattern['form']): Pattern {
-  const sides = pattern && pattern.form !== 'tuples' ? { source: pattern.source, target: pattern.target } : { source: everything, target: everything };
+  const sides = pattern && 'source' in pattern ? { source: pattern.source, target: pattern.target } : { source: everything, target: everything };
   if (form === 'tuples') return { form, tuples: [] };
+  if (form === 'weights') return { form, file: 'weights.csv', list: false, text: '' };
   return form === 'foreach' ? { form, ...sides } : { form, mapping: 'center', ...sides };
 }
