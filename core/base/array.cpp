@@ -24,7 +24,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "numbers of .npy files are read as they are");
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr std::size_t max_text = std::size_t{2} << 30, max_numbers = std::size_t{2} << 30;
+constexpr std::size_t max_text = std::size_t{2} << 30, max_numbers = std::size_t{2} << 30,
+                      max_kept = std::size_t{1} << 28;  ///< in memory
 
 /// The head of a .npy file (NumPy's NEP 1).
 struct NpyHead {
@@ -33,6 +34,19 @@ struct NpyHead {
     std::vector<std::size_t> shape;
     std::size_t length = 0;  ///< bytes before the first number
 };
+
+/// The whole numbers of a text such as "(2, 3)", which may have more behind it. Empty when it is none.
+std::vector<std::size_t> read_shape(std::string_view text) {
+    std::vector<std::size_t> out;
+    text = text.substr(0, text.find(')'));
+    while (!text.empty()) {
+        text.remove_prefix(std::min(text.find_first_of("0123456789"), text.size()));
+        const auto size = take_number<std::size_t>(text);
+        if (!text.empty() && !size) return {};
+        if (size) out.push_back(*size);
+    }
+    return out;
+}
 
 /// What stands after "'key': " in the text of a head.
 std::string_view entry(std::string_view text, std::string_view key) {
@@ -53,16 +67,23 @@ std::optional<NpyHead> read_head(std::string_view bytes) {
     const auto text = bytes.substr(first, size);
     NpyHead out;
     out.length = first + size;
-    auto type = entry(text, "descr"), shape = entry(text, "shape");
+    const auto type = entry(text, "descr"), shape = entry(text, "shape");
     out.by_column = entry(text, "fortran_order").starts_with("True");
     if (!shape.starts_with('(')) return {};
     if (type.starts_with('\'')) out.type = type.substr(1, type.find('\'', 1) - 1);
-    shape = shape.substr(1, shape.find(')') - 1);
-    while (!shape.empty()) {
-        const auto size_of_one = take_number<std::size_t>(shape);
-        if (!size_of_one) return {};
-        out.shape.push_back(*size_of_one);
-        shape.remove_prefix(std::min(shape.find_first_of("0123456789"), shape.size()));
+    out.shape = read_shape(shape);
+    // A recording: records of a cycle and the numbers of its cells or synapses. Its last record counts.
+    constexpr std::string_view record = "[('cycle', '<u8'), ('", numbers = "'<f8', (";
+    if (const auto at = type.find(numbers); type.starts_with(record) && at != type.npos) {
+        const std::size_t records = out.shape.empty() ? 0 : out.shape[0];
+        out.shape = read_shape(type.substr(at + numbers.size()));
+        if (records == 0 || out.shape.size() != 2 || out.shape[0] == 0 ||
+            out.shape[1] > max_numbers / out.shape[0])
+            return {};
+        out.type = "<f8";
+        const std::size_t record_size = sizeof(double) * (1 + out.shape[0] * out.shape[1]);
+        if (records > (std::size_t{1} << 62) / record_size) return {};
+        out.length += (records - 1) * record_size + sizeof(double);
     }
     return out;
 }
@@ -209,6 +230,11 @@ void Array::read_npy(std::string_view bytes, std::uint64_t size) {
         offset_ = head->length;
         return;
     }
+    if (count > max_kept)
+        return fault(
+            fmt::format("{} x {} numbers are too many for this kind of .npy file", rows_, columns_),
+            "numpy.save(file, numpy.ascontiguousarray(array, dtype=float)) writes one that need not be "
+            "converted");
     values_.resize(count);
     constexpr std::size_t block = std::size_t{1} << 16;
     std::vector<char> some(block * type->size);

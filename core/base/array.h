@@ -23,7 +23,8 @@ class Array {
         column,  ///< one column of a table whose first row names the columns
     };
 
-    /// Reads a .npy file, or a CSV file. What is wrong with it is in faults().
+    /// Reads a .npy file, a CSV file, or the last record of a .npy file that Forage has recorded. What is
+    /// wrong with it is in faults().
     static std::shared_ptr<const Array> read(const std::string& path, Form form,
                                              std::string_view column = {});
     /// Reads rows with blanks or commas between their numbers. `at` is the place of the text in its file.

@@ -47,13 +47,34 @@ bool is_of_rectangles(const model::Connection& c, const model::Topology& source,
            std::holds_alternative<model::RectTopology>(target);
 }
 
+/// Whether the numbers of weights, as far as they are read, are those of so many cells.
+bool fits(const model::Weights& weights, const std::vector<double>& list, std::size_t sources,
+          std::size_t targets) {
+    const Array* array = weights.array.array.get();
+    if (!array || !array->faults().empty()) return false;
+    if (!weights.is_list)
+        return array->rows() * array->columns() == sources * targets &&
+               (array->columns() == sources || array->is_vector());
+    for (std::size_t i = 0; i < list.size(); i += array->columns())
+        if (!(list[i] >= 0 && list[i] < static_cast<double>(sources) && list[i + 1] >= 0 &&
+              list[i + 1] < static_cast<double>(targets)))
+            return false;
+    return array->columns() == 3 || array->columns() == 4;
+}
+
 /// The synapses of a table of weights: those of each target follow each other, in the order of their sources.
 Synapses weighted(const model::Connection& c, const model::Weights& weights, std::size_t sources,
-                  std::uint64_t seed, Diagnostics& diagnostics, std::size_t max) {
+                  std::size_t targets, std::uint64_t seed, Diagnostics& diagnostics, std::size_t max) {
+    Synapses out;
+    const auto list = weights.is_list && weights.array ? weights.array->numbers() : std::vector<double>();
+    if (!fits(weights, list, sources, targets)) {
+        diagnostics.error(c.at, fmt::format("the weights of connection '{}' do not fit its groups", c.name),
+                          "'forage check' says why");
+        return out;
+    }
     const Array& array = *weights.array.array;
     const std::size_t count =
         weights.is_list ? array.rows() : array.rows() * array.columns() - array.left_out();
-    Synapses out;
     if (count > max) {
         diagnostics.error(
             c.at,
@@ -63,32 +84,28 @@ Synapses weighted(const model::Connection& c, const model::Weights& weights, std
         return out;
     }
     out.pre.reserve(count), out.post.reserve(count), out.weight.reserve(count);
-    const auto add = [&](double pre, double post, double weight) {
+    const auto add = [&](std::size_t pre, std::size_t post, double weight) {
         out.pre.push_back(static_cast<int>(pre)), out.post.push_back(static_cast<int>(post));
         out.weight.push_back(weight);
     };
     if (weights.is_list) {
-        const auto numbers = array.numbers();
         std::vector<const double*> rows;
-        for (std::size_t i = 0; i < array.rows(); ++i) rows.push_back(&numbers[i * array.columns()]);
+        for (std::size_t i = 0; i < array.rows(); ++i) rows.push_back(&list[i * array.columns()]);
         std::ranges::sort(rows, {}, [](const double* row) { return std::pair(row[1], row[0]); });
         for (const double* row : rows) {
-            add(row[0], row[1], row[2]);
+            add(static_cast<std::size_t>(row[0]), static_cast<std::size_t>(row[1]), row[2]);
             if (array.columns() > 3) out.delay.push_back(static_cast<int>(row[3]));
         }
     } else {
-        // A vector may be a row or a column.
-        const std::size_t in_row = sources, block = std::max<std::size_t>(1, (std::size_t{1} << 18) / in_row);
-        const auto numbers = array.is_vector() ? array.numbers() : std::vector<double>();
-        std::vector<double> some(block * in_row);
-        const std::size_t targets = array.rows() * array.columns() / in_row;
-        for (std::size_t first = 0; first < targets; first += block) {
-            const std::size_t rows = std::min(block, targets - first);
-            const double* values = numbers.data() + first * in_row;
-            if (numbers.empty()) array.copy(first, rows, some.data()), values = some.data();
-            for (std::size_t i = 0; i < rows * in_row; ++i)
-                if (!std::isnan(values[i]))
-                    add(static_cast<double>(i % in_row), static_cast<double>(first + i / in_row), values[i]);
+        const std::size_t step = std::max<std::size_t>(1, (std::size_t{1} << 18) / array.columns());
+        std::vector<double> some(step * array.columns());
+        for (std::size_t first = 0; first < array.rows(); first += step) {
+            const std::size_t rows = std::min(step, array.rows() - first);
+            array.copy(first, rows, some.data());
+            for (std::size_t i = 0; i < rows * array.columns(); ++i) {
+                const std::size_t at = first * array.columns() + i;  // of a vector, a row or a column
+                if (!std::isnan(some[i])) add(at % sources, at / sources, some[i]);
+            }
         }
     }
     out.distance.assign(count, 0);
@@ -113,7 +130,8 @@ Synapses connect(const model::Connection& connection, const model::Topology& sou
     }
     if (const auto* weights = std::get_if<model::Weights>(&connection.pattern))
         return weighted(connection, *weights, static_cast<std::size_t>(model::shape(source_topology).cells),
-                        seed, diagnostics, max);
+                        static_cast<std::size_t>(model::shape(target_topology).cells), seed, diagnostics,
+                        max);
     const Grid source(source_topology), target(target_topology);
     const bool receptive = connection.arborization.direction == model::Direction::receptive;
     std::size_t paired = 0;

@@ -15,8 +15,8 @@ struct Synapses {
     std::vector<double> distance;  ///< in cells
     std::vector<int> delay;        ///< in cycles
     std::vector<double> attenuation;
-    std::vector<double> weight;    ///< of model::Weights; empty for other patterns
-    double reference = 1;  ///< a synapse passes psp * (reference - attenuation)
+    std::vector<double> weight;  ///< of model::Weights; empty for other patterns
+    double reference = 1;        ///< a synapse passes psp * (reference - attenuation)
 
     std::size_t size() const { return pre.size(); }
 };

@@ -54,9 +54,9 @@ class Constants {
 /// The process whose constants hold in a connection: that of both its groups; null when they have two.
 const Process* scope_of(const Connection& connection, const GroupIndex& groups);
 
-/// Reads the arrays of a system that are not read yet, and computes all its formulas: sets the numbers that have one, and Setting::computed. Reports mistakes
-/// in constants and in formulas of numbers; those of parameters are reported by validate(), which knows their
-/// types. Returns whether all numbers have a value.
+/// Reads the arrays of a system that are not read yet, and computes all its formulas: sets the numbers that
+/// have one, and Setting::computed. Reports mistakes in constants and in formulas of numbers; those of
+/// parameters are reported by validate(), which knows their types. Returns whether all numbers have a value.
 bool compute(System& system, Diagnostics& diagnostics);
 /// The same, without reports: of a system whose mistakes are reported when it is read.
 void compute(System& system);

@@ -52,7 +52,7 @@ TypeUse& use_of(System& system, std::string_view id) {
     missing("group, connection or process", id);
 }
 
-/// Removes the settings that a type does not have.
+/// Removes the settings and the initial values that a type does not have.
 template <class Type>
 void change_type(TypeUse& use, const Type* type, const std::string& name, const char* what) {
     if (!type) refuse(fmt::format("there is no {} type '{}'", what, name));
@@ -60,6 +60,10 @@ void change_type(TypeUse& use, const Type* type, const std::string& name, const 
     std::erase_if(use.settings, [&](const Setting& s) {
         return std::ranges::none_of(type->parameters, [&](const Parameter& p) { return p.name == s.name; });
     });
+    if constexpr (requires { type->states; })
+        std::erase_if(use.initial, [&](const Initial& i) {
+            return std::ranges::none_of(type->states, [&](const auto& s) { return s.name == i.state; });
+        });
 }
 template <class Ports>
 void keep_ports(std::vector<CrossReference>& references, const Ports& ports) {

@@ -210,6 +210,29 @@ def test_mistakes_are_found_at_once():
     assert system.to_xml() == before
 
 
+def test_weights_and_initial_values(tmp_path):
+    weights = numpy.array([[0.5, -0.25, numpy.nan], [0, 1, 2]])
+    numpy.save(tmp_path / "w.npy", weights)
+    for numbers in (weights, "w.npy"):
+        system = forage.System("arrays")
+        p = system.add_process("P")
+        a, b = p.add_group("A", 3, type="neuronNumeric"), p.add_group("B", 2, type="neuronNumeric")
+        c = system.connect(a, b, pattern=Pattern.weights(numbers))
+        a.initial = {"act": "uniform(1, 2)", "pot": 0.5}
+        assert a.initial == {"act": "uniform(1, 2)", "pot": "0.5"} and c.initial == {}
+        assert c.pattern.kind == "weights" and c.pattern == Pattern.weights(numbers)
+        system.save(tmp_path / "arrays.iqr")
+        numpy.testing.assert_array_equal(c.matrix().toarray(), numpy.nan_to_num(weights))
+        assert forage.System.read(tmp_path / "arrays.iqr").to_xml() == system.to_xml()
+        with pytest.raises(forage.InputError, match="plain iqr"):
+            system.save(tmp_path / "original.iqr", original=True)
+        with forage.open(tmp_path / "arrays.iqr") as run:
+            act = run["P/A"].act.copy()
+            assert (act >= 1).all() and (act < 2).all() and (run["P/A"].pot == 0.5).all()
+    with pytest.raises(forage.InputError, match="dimensions"):
+        Pattern.weights([1, 2])
+
+
 def test_all_other_mistakes_are_those_of_check(tmp_path):
     system = forager()
     system["Bug/Light"].size = (31, 1)

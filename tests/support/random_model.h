@@ -100,6 +100,9 @@ class RandomModel {
             if (chance(0.5)) model::set_parameter(g.neuron, "vmPrs", number(0, 1));
             if (chance(0.3)) model::set_parameter(g.neuron, "clipVm", "true");
         }
+        if (type == "neuronNumeric" && chance(0.3))
+            g.neuron.initial.push_back(
+                {"act", pick<std::string>({"0.5", "normal(0, 0.1)", "uniform(0, 1)"})});
         if (type == "neuronRandomSpike") model::set_parameter(g.neuron, "probability", number(0, 1));
     }
 
@@ -164,6 +167,8 @@ class RandomModel {
         c.arborization = arborization();
         c.attenuation = function(false);
         c.delay = function(true);
+        if (chance(0.15) && c.synapse->type != "synapseApicalShunt")
+            give_weights(c, model::shape(source.topology).cells, model::shape(target.topology).cells);
         if (chance(0.2))
             c.line.reset();
         else
@@ -173,6 +178,26 @@ class RandomModel {
         Diagnostics diagnostics;
         connectivity::connect(c, source.topology, target.topology, connection_seed, diagnostics);
         if (diagnostics.failed()) model::remove(s, id);  // no synapses
+    }
+
+    /// Makes a connection one with weights, as a matrix or as a list.
+    void give_weights(model::Connection& c, int sources, int targets) {
+        model::Weights out;
+        out.is_list = chance(0.3);
+        for (int t = 0; t < targets; ++t) {
+            for (int s = 0; s < sources; ++s) {
+                const bool none = chance(0.2);
+                const auto weight = number(-1, 1);
+                if (out.is_list && !none)
+                    out.text += std::to_string(s) + " " + std::to_string(t) + " " + weight + "\n";
+                else if (!out.is_list)
+                    out.text += (none ? "nan" : weight) + " ";
+            }
+            if (!out.is_list) out.text += "\n";
+        }
+        out.array.array =
+            Array::parse(out.text, out.is_list ? Array::Form::list : Array::Form::matrix, out.text_at);
+        c.pattern = out, c.arborization = {}, c.attenuation = {}, c.delay = {};
     }
 
     /// Comments on the pages, and places of the phantoms of groups of other processes.

@@ -109,15 +109,17 @@ std::string describe(const SystemFile& file, const std::string& format, std::uin
 
 SynapseTable synapses(const SystemFile& file, const std::string& id, std::uint64_t seed) {
     Diagnostics diagnostics;
-    const auto it = std::ranges::find(file.model.connections, id, &model::Connection::id);
-    if (it == file.model.connections.end())
+    if (std::ranges::find(file.model.connections, id, &model::Connection::id) == file.model.connections.end())
         throw InputError(fmt::format("there is no connection with the id '{}'", id));
+    const auto read = xml::parse_system(file.path, text_of(file), diagnostics);  // with its arrays
+    throw_errors(diagnostics);
+    const auto it = std::ranges::find(read->connections, id, &model::Connection::id);
     const auto* type = file.types->synapse(model::synapse_of(*it).type);
     std::optional<engine::Simulation> simulation;  // weights that are learned begin as states
     if (type && !type->has_gain) simulation = compile(file, {}, seed, diagnostics);
     throw_errors(diagnostics);
-    auto [list, strength] = plot::synapses_of(*it, file.model, *file.types,
-                                              simulation ? &*simulation : nullptr, seed, diagnostics);
+    auto [list, strength] =
+        plot::synapses_of(*it, *read, *file.types, simulation ? &*simulation : nullptr, seed, diagnostics);
     throw_errors(diagnostics);
     return {std::move(list.pre), std::move(list.post), std::move(list.distance), std::move(list.delay),
             std::move(strength)};

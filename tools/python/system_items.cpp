@@ -224,7 +224,39 @@ void set_feedback(const SystemConnection& self, const py::dict& states) {
     if (auto& synapse = self.use().synapse) synapse->feedback = std::move(all);
 }
 
-std::string repr(const SystemProcess& self) {
+/// The values with which states begin: texts, or (file, column) for a file.
+py::dict initial_of(const model::TypeUse& use) {
+    py::dict out;
+    for (const auto& i : use.initial)
+        out[py::str(i.state)] =
+            i.file.empty() ? py::object(py::str(i.value)) : py::object(py::make_tuple(i.file, i.column));
+    return out;
+}
+
+void set_initial(model::TypeUse& use, const py::dict& values) {
+    std::vector<model::Initial> all;
+    for (const auto& [state, value] : values) {
+        auto& one = all.emplace_back();
+        one.state = state.cast<std::string>();
+        if (py::isinstance<py::tuple>(value))
+            std::tie(one.file, one.column) = value.cast<std::pair<std::string, std::string>>();
+        else
+            one.value = py::str(value).cast<std::string>();
+    }
+    use.initial = std::move(all);
+}
+
+constexpr const char *about_initial = R"(With what states begin, by name: {"vm": 0.5, "act": "normal(0, 0.1)",
+                     "u" : ("cells.csv", "u0")
+}
+.
+
+    A value is a number,
+    or a text as in a system file;
+a pair is a file and the name of its column, "" for a file of numbers only.) ";
+
+    std::string
+    repr(const SystemProcess&self) {
     const auto& p = self.use();
     return fmt::format("<forage.System.Process '{}', {} groups{}>", name_of(p), p.groups.size(),
                        p.module ? ", " + p.module->type : "");
@@ -338,6 +370,10 @@ void add_groups_of_systems(py::handle scope) {
                 rect.width = size.first, rect.height = size.second;
             },
             "(width, height).")
+        .def_property(
+            "initial", [](const SystemGroup& self) { return initial_of(self.use().neuron); },
+            [](const SystemGroup& self, const py::dict& values) { set_initial(self.use().neuron, values); },
+            about_initial)
         .def_property_readonly("shape", &shape,
                                "(rows, columns), or (cells,) of a sparse group, as of arrays of a run.")
         .def_property(
@@ -399,6 +435,12 @@ void add_connections(py::handle scope) {
                 return synapse ? py::object(py::str(synapse->type)) : py::none();
             },
             "The name of its synapse type.")
+        .def_property(
+            "initial", [](const SystemConnection& self) { return initial_of(model::synapse_of(self.use())); },
+            [](const SystemConnection& self, const py::dict& values) {
+                if (auto& synapse = self.use().synapse) set_initial(*synapse, values);
+            },
+            about_initial)
         .def_property("feedback", &feedback, &set_feedback,
                       "The states of the target that a learning synapse reads, by name: {\"input\": \"vm\"}.")
         .def(

@@ -148,7 +148,10 @@ struct SystemEdit {
     }
     json topology() { return editable_group(system, id()).topology = topology_from(o), nullptr; }
     json pattern() {
-        return editable_connection(system, id()).pattern = pattern_from(o.at("pattern")), nullptr;
+        auto& c = editable_connection(system, id());
+        c.pattern = pattern_from(o.at("pattern"));
+        if (std::holds_alternative<model::Weights>(c.pattern)) c.arborization = {}, c.attenuation = {};
+        return nullptr;
     }
     json arborization() {
         return editable_connection(system, id()).arborization = arborization_from(o.at("arborization")),

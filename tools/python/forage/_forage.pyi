@@ -311,6 +311,7 @@ class System:
         color: str
         size: tuple[int, int]
         points: typing.Any
+        initial: dict[str, typing.Any]
         wrap_x: bool
         wrap_y: bool
         @property
@@ -327,6 +328,7 @@ class System:
         pattern: Pattern
         arborization: Arborization
         feedback: dict[str, str]
+        initial: dict[str, typing.Any]
         @property
         def attenuation(self) -> DistanceFunction: ...
         @attenuation.setter

@@ -86,6 +86,15 @@ TEST_CASE("a .npy file may have several types and both orders") {
     CHECK(shown(npy<std::int16_t>("<i2", "(1, 2)", {-7, 8})) == "1 x 2: -7 8");
 }
 
+TEST_CASE("of a recording, the last record is read") {
+    const std::string type = "[('cycle', '<u8'), ('weight', '<f8', (2, 2))]";
+    auto bytes = npy<double>("<f8", "(2,)", {0, 1, 2, 3, 4, 0, 5, 6, NAN, 8});
+    bytes.replace(bytes.find("'<f8'"), 5, type).erase(bytes.find("\n") - type.size() + 5, type.size() - 5);
+    CHECK(shown(bytes) == "2 x 2: 5 6 nan 8");
+    bytes.replace(bytes.find("(2,)"), 4, "(0,)");
+    CHECK(shown(bytes) == "0:0 the head of this .npy file is damaged; ");
+}
+
 TEST_CASE("a .npy file that does not fit is refused") {
     CHECK(shown(npy<double>("<f8", "(2, 3)", {1, 2})) ==
           "0:0 the file ends early: 2 x 3 numbers take 48 bytes, and there are 16; ");
