@@ -168,14 +168,13 @@ std::shared_ptr<const Array> Array::read(const std::string& path, Form form, std
             out->source_ = reader.file();
             out->read_rows(reader, form, column, false);
         }
+        if (out->faults_.empty()) out->scan();
     } catch (const FileError& e) {
         out->source_ = e.file(), out->faults_ = e.errors();
     } catch (const std::bad_alloc&) {
         out->fault("there is not enough memory for the file");
     }
     if (out->offset_ == 0 && out->file_ >= 0) close(std::exchange(out->file_, -1));  // it is in memory
-    if (out->faults_.empty() && !out->scan() && out->faults_.empty())
-        out->fault("there are no numbers in it");
     return out;
 }
 
@@ -185,6 +184,7 @@ std::shared_ptr<const Array> Array::parse(std::string_view text, Form form, cons
     try {
         TableReader reader(text, {}, TableReader::Layout::blocks, "these are no numbers");
         out->read_rows(reader, form, {}, true);
+        out->scan();
     } catch (const FileError& e) {
         for (Diagnostic d : e.errors()) {
             const int line = std::max(d.where.line, 1), column = std::max(d.where.column, 1);
@@ -193,8 +193,6 @@ std::shared_ptr<const Array> Array::parse(std::string_view text, Form form, cons
             out->faults_.push_back(std::move(d));
         }
     }
-    if (out->faults_.empty() && !out->scan() && out->faults_.empty())
-        out->fault("there are no numbers in it");
     return out;
 }
 
@@ -316,6 +314,7 @@ bool Array::scan() {
                 "rows and columns count from 0; nan stands for none");
         }
     }
+    if (left_out_ == count) fault("there are no numbers in it");
     return left_out_ < count;
 }
 

@@ -74,13 +74,13 @@ class Array {
     std::vector<Diagnostic> faults_;
 };
 
-/// An array that a model refers to; none before model::load_arrays().
+/// An array that a model refers to; none before model::load_arrays(), which equals any.
 struct ArrayHandle {
     std::shared_ptr<const Array> array;
     const Array* operator->() const { return array.get(); }
     explicit operator bool() const { return array != nullptr; }
     friend bool operator==(const ArrayHandle& a, const ArrayHandle& b) {
-        return a.array == b.array || (a.array && b.array && *a.array == *b.array);
+        return !a.array || !b.array || a.array == b.array || *a.array == *b.array;
     }
 };
 

@@ -241,7 +241,6 @@ class Reader {
             else
                 c.terse = true;
         };
-        read("Pattern", c.pattern, &Reader::pattern);
         if (const Element w = e.child("Weights")) {
             if (const Element p = e.child("Pattern"))
                 out_.error(p.where(), "a connection has either <Pattern> or <Weights>",
@@ -249,6 +248,8 @@ class Reader {
             auto weights = located<model::Weights>(w);
             weights.text = w.text(), weights.text_at = w.value().where();
             c.pattern = std::move(weights);
+        } else {
+            read("Pattern", c.pattern, &Reader::pattern);
         }
         read("Arborization", c.arborization, &Reader::arborization);
         read("AttenuationFunction", c.attenuation, &Reader::function);

@@ -1,4 +1,6 @@
 // The processes, groups and connections of a system, and their parameters.
+#include <tuple>
+
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
@@ -238,7 +240,7 @@ void set_initial(model::TypeUse& use, const py::dict& values) {
     for (const auto& [state, value] : values) {
         auto& one = all.emplace_back();
         one.state = state.cast<std::string>();
-        if (py::isinstance<py::tuple>(value))
+        if (py::isinstance<py::tuple>(value) || py::isinstance<py::list>(value))
             std::tie(one.file, one.column) = value.cast<std::pair<std::string, std::string>>();
         else
             one.value = py::str(value).cast<std::string>();
@@ -247,16 +249,14 @@ void set_initial(model::TypeUse& use, const py::dict& values) {
 }
 
 constexpr const char *about_initial = R"(With what states begin, by name: {"vm": 0.5, "act": "normal(0, 0.1)",
-                     "u" : ("cells.csv", "u0")
+                     "u" : [ "cells.csv", "u0" ]
 }
 .
 
     A value is a number,
-    or a text as in a system file;
-a pair is a file and the name of its column, "" for a file of numbers only.) ";
+    or a text as in a system file; a pair is a file and the name of its column, "" in a file without names.)";
 
-    std::string
-    repr(const SystemProcess&self) {
+std::string repr(const SystemProcess& self) {
     const auto& p = self.use();
     return fmt::format("<forage.System.Process '{}', {} groups{}>", name_of(p), p.groups.size(),
                        p.module ? ", " + p.module->type : "");

@@ -134,6 +134,10 @@ std::vector<Edit> edits_of_group(const std::string& id, const Registry& registry
          [=](System& s) {
              editable_group(s, id).topology = SparseTopology{{{1, 1, {}}, {3, 2, {}}}};
          }},
+        {"initial values",
+         [=](System& s) {
+             editable_group(s, id).neuron.initial = {{"act", "normal(0, 1)"}, {"vm", "", "cells.csv", "v"}};
+         }},
     };
 }
 
@@ -174,6 +178,14 @@ std::vector<Edit> edits_of_connection(const std::string& id, const Registry& reg
              auto& pattern = find_connection(s, id)->pattern;
              if (auto* tuples = std::get_if<TuplesPattern>(&pattern))
                  tuples->tuples.insert(tuples->tuples.begin() + 1, {list.points, {{1, 1, {}}}});
+         }},
+        {"weights",
+         [=](System& s) {
+             editable_connection(s, id).pattern = Weights{"w.csv", true};
+         }},
+        {"rows of weights",
+         [=](System& s) {
+             editable_connection(s, id).pattern = Weights{"", false, "1 2\n3 4\n"};
          }},
         {"ellipse",
          [=](System& s) {
