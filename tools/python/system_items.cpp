@@ -248,13 +248,10 @@ void set_initial(model::TypeUse& use, const py::dict& values) {
     use.initial = std::move(all);
 }
 
-constexpr const char *about_initial = R"(With what states begin, by name: {"vm": 0.5, "act": "normal(0, 0.1)",
-                     "u" : [ "cells.csv", "u0" ]
-}
-.
+constexpr const char* about_initial =
+    R"doc(With what states begin, by name: {"vm": 0.5, "act": "normal(0, 0.1)", "u": ("cells.csv", "u0")}.
 
-    A value is a number,
-    or a text as in a system file; a pair is a file and the name of its column, "" in a file without names.)";
+A value is a number, or a text as in a system file; a pair is a file and the name of its column, "" in a file without names.)doc";
 
 std::string repr(const SystemProcess& self) {
     const auto& p = self.use();
