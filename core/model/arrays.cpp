@@ -142,7 +142,7 @@ void ArrayCheck::list(const Array& array, int sources, int targets) {
     if (array.columns() < 3 || array.columns() > 4)
         return out_.error(array.place(array.rows()),
                           fmt::format("a list has 3 or 4 columns, not {}", array.columns()),
-                          "source, target, weight and perhaps delay");
+                          "source, target, weight and perhaps delay; without form=\"list\", it is a matrix");
     constexpr int max_reported = 20;
     const auto numbers = array.numbers();
     std::unordered_map<std::size_t, std::size_t> seen;  // rows by pair of cells

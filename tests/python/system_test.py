@@ -213,7 +213,7 @@ def test_mistakes_are_found_at_once():
 def test_weights_and_initial_values(tmp_path):
     weights = numpy.array([[0.5, -0.25, numpy.nan], [0, 1, 2]])
     numpy.save(tmp_path / "w.npy", weights)
-    for numbers in (weights, "w.npy"):
+    for numbers in (weights, tmp_path / "w.npy"):
         system = forage.System("arrays")
         p = system.add_process("P")
         a, b = p.add_group("A", 3, type="neuronNumeric"), p.add_group("B", 2, type="neuronNumeric")

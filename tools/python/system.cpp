@@ -172,6 +172,8 @@ void leave(PythonSystem& self, const py::object& failure, const py::object&, con
 void writing(const std::function<void()>& write) {
     try {
         write();
+    } catch (const InputError&) {
+        throw;
     } catch (const std::runtime_error& e) {
         PyErr_SetString(PyExc_OSError, e.what());
         throw py::error_already_set();
@@ -216,7 +218,7 @@ lenient: whether mistakes that the original accepts are warnings, not errors.)")
 path: where it is from now on; links and names of files in the system are changed so that they stay valid. Without it, the file is overwritten.
 original: whether everything is written that the original requires, and places in the diagram are given, as `forage convert --original` does.
 
-Raises OSError when the file cannot be written. A system with mistakes can be saved: validate() finds them.)")
+Raises OSError when the file cannot be written, and InputError when plain iqr cannot say what the system says. A system with mistakes can be saved: validate() finds them.)")
         .def(
             "validate", &validate, "world"_a = none,
             R"(Checks everything that `forage check` checks, in the world in the file `world` when it is given.

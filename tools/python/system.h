@@ -81,7 +81,7 @@ SystemGroup group_of(PythonSystem& system, const py::object& group);
 /// The item that `name` names: a SystemProcess, SystemGroup or SystemConnection. Throws InputError.
 py::object item_of(PythonSystem& system, const std::string& name);
 
-/// Calls `write`. Raises OSError when it throws std::runtime_error.
+/// Calls `write`. Raises OSError when it throws std::runtime_error that is no InputError.
 void writing(const std::function<void()>& write);
 
 /// Throws InputError when `types`, a map of a registry, has no `type`.
