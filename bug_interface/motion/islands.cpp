@@ -12,7 +12,7 @@
 #include <limits>
 #include <numeric>
 
-#include "bug_interface/motion/overlap.h"
+#include "bug_interface/motion/bullet_world.h"
 #include "bug_interface/motion/physics.h"
 
 namespace forage::bug {
@@ -27,6 +27,15 @@ constexpr std::uint64_t contact_steps_at_once = 20;
 constexpr double max_turn = 0.5;  ///< rad; how far a body turns in any stride
 /// Gap between bounding circles below which the shapes are compared, m.
 constexpr double shape_test_distance = 0.1;
+
+/// The distance from the point (x, y) to an outline, m; 0 inside.
+double distance_to(const Outline& o, double x, double y) {
+    const double dx = x - o.x, dy = y - o.y;
+    if (o.round) return std::max(0.0, std::sqrt(dx * dx + dy * dy) - o.radius);
+    const double out_x = std::max(0.0, std::abs(o.cos_yaw * dx + o.sin_yaw * dy) - o.half_x);
+    const double out_y = std::max(0.0, std::abs(o.cos_yaw * dy - o.sin_yaw * dx) - o.half_y);
+    return std::sqrt(out_x * out_x + out_y * out_y);
+}
 
 }  // namespace
 
@@ -52,40 +61,32 @@ const std::vector<Physics::PlacedShape>& Physics::shapes(std::size_t body) {
         return cache.shapes;
     cache.shapes.clear();
     state.update_rotation();
-    for_each_shape(body, Transform2(pose.x, pose.y, state.cos_yaw, state.sin_yaw),
-                   [&](const Outline& outline, int layer, double friction) {
-                       cache.shapes.push_back({outline, layer, bounding_radius(outline), friction});
-                   });
+    for_each_shape(
+        body, Transform2(pose.x, pose.y, state.cos_yaw, state.sin_yaw),
+        [&](const Outline& outline, int layer, double friction) {
+            cache.shapes.push_back({outline, cache.shapes.size(), layer, bounding_radius(outline), friction});
+        });
     cache.pose = pose, cache.valid = true;
     return cache.shapes;
 }
 
-/// A lower bound of the gap between the shapes of two bodies, m; never below circle_gap(). At most 0 when any
-/// two of them overlap.
-double Physics::shape_gap(std::size_t a, std::size_t b) {
-    double gap = std::numeric_limits<double>::infinity();
-    for (const PlacedShape& p : shapes(a))
-        for (const PlacedShape& q : shapes(b)) {
-            // Most shapes are far from each other, and their bounding circles show it.
-            const double limit = gap + p.bounding_radius + q.bounding_radius;
-            if (limit >= 0 && !closer_than(p.outline, q.outline, limit)) continue;
-            if (can_collide(LayerMask{1} << p.layer, q.layer))
-                gap = std::min(gap, -overlap(p.outline, q.outline).depth);
-            if (gap <= 0) return gap;
-        }
+/// A lower bound of the gap between the shapes of two bodies, m, of at most `limit` or circle_gap(). At most
+/// 0 when any two of them overlap.
+double Physics::shape_gap(std::size_t a, std::size_t b, double limit) {
+    double gap = limit;
+    for_each_pair(a, b, limit, [&](const PlacedShape& p, const PlacedShape& q) {
+        gap = std::min(gap, bullet_->gap(p.outline, q.outline, limit).distance);
+    });
     return std::max(gap, circle_gap(a, b));
 }
 
-/// Whether the shapes of two bodies may be closer to each other than `distance`, m.
-bool Physics::may_be_closer_than(std::size_t a, std::size_t b, double distance) {
-    if (circle_gap(a, b) >= distance) return false;
-    for (const PlacedShape& p : shapes(a))
-        for (const PlacedShape& q : shapes(b))
-            if (closer_than(p.outline, q.outline, distance + p.bounding_radius + q.bounding_radius) &&
-                can_collide(LayerMask{1} << p.layer, q.layer) &&
-                overlap(p.outline, q.outline, -distance).depth > -distance)
-                return true;
-    return false;
+/// The outline of a shape of a body, at `pose`.
+Outline Physics::outline(std::size_t body, std::size_t index, const Pose2& pose) const {
+    const std::size_t discs = bodies_[body].radius > 0 ? 1 : 0;
+    if (index >= discs) return Transform2(pose) * bodies_[body].parts[index - discs].outline;
+    Outline disc;
+    disc.round = true, disc.x = pose.x, disc.y = pose.y, disc.radius = bodies_[body].radius;
+    return disc;
 }
 
 /// Sets the clearances of a body to the smallest gap to an obstacle and to half the smallest gap to a body of
@@ -95,23 +96,22 @@ void Physics::measure_clearance(std::size_t body) {
     state.measured = true;
     state.obstacle_clearance = sight;
     for_each_obstacle_near(body, sight, [&](const Obstacle& o, std::size_t) {
-        double gap = distance_to(o.outline, state.pose.x, state.pose.y) - state.bounding_radius;
-        if (gap >= state.obstacle_clearance) return;
-        if (gap < shape_test_distance && lever_arm(body) > 0) {
-            double of_shapes = infinity;
-            for (const PlacedShape& shape : shapes(body))
-                if (o.layers >> shape.layer & 1u)
-                    of_shapes = std::min(of_shapes, -overlap(o.outline, shape.outline).depth);
-            gap = std::max(gap, of_shapes);
-        }
+        const double gap = distance_to(o.outline, state.pose.x, state.pose.y) - state.bounding_radius;
         state.obstacle_clearance = std::min(state.obstacle_clearance, gap);
     });
+    if (state.obstacle_clearance < shape_test_distance && lever_arm(body) > 0) {
+        double of_shapes = shape_test_distance;
+        for_each_obstacle_pair(body, shape_test_distance, [&](const PlacedShape& p, const PlacedShape& o) {
+            of_shapes = std::min(of_shapes, bullet_->gap(p.outline, o.outline, shape_test_distance).distance);
+        });
+        state.obstacle_clearance = std::max(state.obstacle_clearance, of_shapes);
+    }
     state.body_clearance = infinity;
     for (const std::size_t other : near_[body]) {
         double gap = circle_gap(body, other);
         if (gap < shape_test_distance && lever_arm(body) + lever_arm(other) > 0) {
             if (state.clearance() >= near_distance)
-                gap = shape_gap(body, other);
+                gap = shape_gap(body, other, shape_test_distance);
             else if (states_[other].clearance() >= near_distance)  // the body touches something in any case
                 states_[other].measured = false;
         }
@@ -142,7 +142,7 @@ double Physics::displacement_per_step(std::size_t body) const {
 
 void Physics::begin(std::span<const Reach> reach, std::uint64_t steps) {
     steps_ = steps;
-    members_.clear(), islands_.clear(), point_contacts_.clear();
+    members_.clear(), islands_.clear();
     push_ = 0;
     const double n = static_cast<double>(steps);
     for (std::size_t i = 0; i < states_.size(); ++i) {
@@ -168,7 +168,7 @@ void Physics::begin(std::span<const Reach> reach, std::uint64_t steps) {
     }
     for (Island& island : islands_) {
         const std::size_t body = members_[island.first];
-        island.free = island.count == 1 && contacts_ == Contacts::when_near &&
+        island.free = island.count == 1 && stepping_ == Stepping::strides &&
                       !may_touch_something(body, n * displacement_per_step(body));
     }
 }
@@ -195,7 +195,7 @@ void Physics::find_pairs() {
             const std::size_t a = members_[k], b = members_[other];
             if (b >= a) return;
             const bool apart = circle_gap(a, b) >= 2 * (push_ + near_distance);
-            if (apart && contacts_ == Contacts::when_near) return;
+            if (apart && stepping_ == Stepping::strides) return;
             near_[a].push_back(b), near_[b].push_back(a);
         });
     for (const std::size_t a : members_) {
@@ -209,7 +209,7 @@ void Physics::find_pairs() {
 
 /// While nothing is near, a stride ends where something may be; while bodies touch, it is a few steps.
 std::uint64_t Physics::stride(std::size_t island, std::uint64_t left) {
-    if (left == 1 || contacts_ == Contacts::always_bullet) return 1;
+    if (left == 1 || stepping_ == Stepping::single) return 1;
     const auto steps_of = [](double distance, double per_step, std::uint64_t most) {
         const double steps = distance / per_step;
         return steps < 1 ? 1 : steps < static_cast<double>(most) ? static_cast<std::uint64_t>(steps) : most;
@@ -241,7 +241,7 @@ void Physics::activate_neighbours(std::span<const std::size_t> bodies, double se
                 const double distance =
                     4 * near_distance + 2 * (max_displacement(i, velocities_[i], seconds) +
                                              max_displacement(j, velocities_[j], seconds));
-                if (may_be_closer_than(i, j, distance)) other.active = more = true;
+                if (shape_gap(i, j, distance) < distance) other.active = more = true;
             }
         }
     }

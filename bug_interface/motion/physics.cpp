@@ -6,8 +6,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "bug_interface/motion/bullet_contacts.h"
-#include "bug_interface/motion/overlap.h"
+#include "bug_interface/motion/bullet_world.h"
 
 namespace forage::bug {
 namespace {
@@ -25,16 +24,15 @@ double decelerated(double v, double change) { return v > change ? v - change : v
 }  // namespace
 
 Physics::Physics(std::span<const Obstacle> obstacles, std::span<const Body> bodies, double step,
-                 Contacts contacts, std::vector<LayerMask> collision_masks)
+                 Stepping stepping, std::vector<LayerMask> collision_masks)
     : obstacles_(obstacles.begin(), obstacles.end()),
       bodies_(bodies.begin(), bodies.end()),
       states_(bodies.size()),
       velocities_(bodies.size()),
       step_(step),
-      contacts_(contacts),
+      stepping_(stepping),
       collision_masks_(std::move(collision_masks)),
-      bullet_contacts_(std::make_unique<BulletContacts>()),
-      box_contacts_(std::make_unique<BoxContacts>()) {
+      bullet_(std::make_unique<BulletWorld>(bodies.size())) {
     collision_masks_.resize(max_layers, ~LayerMask{0});
     std::size_t max_parts = 0;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -46,14 +44,16 @@ Physics::Physics(std::span<const Obstacle> obstacles, std::span<const Body> bodi
         shape_caches_.emplace_back().shapes.reserve(bodies_[i].parts.size() + 1);
     }
     std::vector<Area> covered;
-    for (const Obstacle& o : obstacles_)
+    for (const Obstacle& o : obstacles_) {
+        obstacle_shapes_.push_back({o.outline, 0, 0, bounding_radius(o.outline), o.friction});
         covered.push_back(Area::around(o.outline.x, o.outline.y, bounding_radius(o.outline)));
+    }
     obstacle_grid_.assign(covered, 1);
     // Steps must not allocate memory.
     const std::size_t n = bodies_.size();
-    poses_before_.resize(n), reverted_.reserve(n), reach_.resize(n);
-    step_velocities_.resize(n), step_reach_.resize(n), coasting_.resize(n), undisturbed_.resize(n),
-        number_.resize(n);
+    states_before_.resize(n), velocities_before_.resize(n), corrections_.resize(n), reach_.resize(n);
+    step_velocities_.resize(n), step_reach_.resize(n), coasting_.resize(n), undisturbed_.resize(n);
+    active_.reserve(n);
     near_.resize(n), root_.resize(n), members_.reserve(n), islands_.reserve(n), areas_.reserve(n);
     for (auto& near : near_) near.reserve(n);
     std::iota(root_.begin(), root_.end(), 0);
@@ -107,9 +107,10 @@ void Physics::coast(std::size_t body, std::uint64_t steps, Velocity& mean, Veloc
 }
 
 /// Moves a body with a constant velocity. What is pushed moves no further than islands were made for.
-void Physics::move(std::size_t body, const Velocity& mean, double seconds) {
+void Physics::move(std::size_t body, Velocity mean, double seconds) {
     State& s = states_[body];
-    if (is_zero(mean)) return;
+    if (is_zero(mean)) return;  // shapes that overlap at rest stay where they are
+    if (s.active) mean.x += corrections_[body].x() / seconds, mean.y += corrections_[body].y() / seconds;
     double distance = max_displacement(body, mean, seconds);
     const double allowed = push_ - s.displacement;
     if (s.active && distance > allowed) {
@@ -151,15 +152,24 @@ void Physics::step(std::span<const MotorCommand> commands) {
 }
 
 void Physics::advance(std::size_t island, std::span<const Velocity> velocities, std::uint64_t steps) {
-    const auto members = this->island(island);
+    if (make_stride(this->island(island), velocities, steps)) return;
+    advance(island, velocities, steps / 2);
+    advance(island, velocities, steps - steps / 2);
+}
+
+/// Moves bodies through some steps at once. Returns false, and changes nothing, when they must be made in
+/// shorter strides.
+bool Physics::make_stride(std::span<const std::size_t> members, std::span<const Velocity> velocities,
+                          std::uint64_t steps) {
     const double seconds = static_cast<double>(steps) * step_;
-    const bool always = contacts_ == Contacts::always_bullet;
+    const bool always = stepping_ == Stepping::single;
     bool contacts = always;
     for (const std::size_t i : members) {
         State& s = states_[i];
+        states_before_[i] = s, velocities_before_[i] = velocities_[i];
         s.active = always;
         s.contacts_in_stride = 0;
-        poses_before_[i] = s.pose;
+        corrections_[i].setZero();
         if (bodies_[i].driven)
             velocities_[i] = velocities[i];
         else
@@ -185,7 +195,7 @@ void Physics::advance(std::size_t island, std::span<const Velocity> velocities, 
         states_[i].touching = states_[i].active;
         states_[i].robot_contacts += static_cast<int>(steps) * states_[i].contacts_in_stride;
     }
-    if (contacts) separate(members);
+    return !contacts || !undo_penetrations(members, steps);
 }
 
 void Physics::checkpoint(Archive& archive) {

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "bug_interface/motion/body.h"
-#include "bug_interface/motion/contact_solver.h"
 #include "bug_interface/motion/motor.h"
 #include "bug_interface/sensing/grid.h"
 #include "bug_interface/sensing/outline.h"
@@ -19,33 +18,31 @@
 
 namespace forage::bug {
 
-class BoxContacts;
-class BulletContacts;
+class BulletWorld;
 
 /// Moves bodies in time steps. In every step each driven body gets the velocity of its command; contacts and
 /// friction reduce the velocities; then x += v cos(yaw) dt, y += v sin(yaw) dt, yaw += w dt, with the yaw at
-/// the start of the step. Shapes that penetrate each other afterwards are separated.
+/// the start of the step.
 ///
 /// Bodies that may meet each other within some steps form an island; islands cannot touch each other in these
 /// steps, so each is simulated by itself (islands.cpp). Where nothing is near, many steps are one stride, and
 /// where bodies touch, a few; the strides of an island depend on nothing outside it.
 ///
-/// Contacts that have a round side are found in closed form, those of two boxes by Bullet
-/// (bullet_contacts.h). All of a stride are solved together (contact_solver.h). Collisions have no
-/// restitution. No contact outlives begin(); only movable objects keep their velocity.
+/// Bullet finds and solves all contacts of a stride together (bullet_world.h). Collisions have no
+/// restitution. No contact outlives a stride; only movable objects keep their velocity.
 ///
 /// After a stride no two shapes penetrate each other by more than 0.8 mm, or by more than before it if that
-/// was deeper (separation.cpp).
+/// was deeper: a stride that ends otherwise is made again in two halves (contacts.cpp).
 class Physics {
   public:
-    /// How contacts are solved. `always_bullet` is the reference for tests: one step at a time, each of them
-    /// by Bullet's solver.
-    enum class Contacts { when_near, always_bullet };
+    /// Whether steps are made together where that is exact enough. With `single`, each is made by itself and
+    /// contacts are looked for everywhere: the reference for tests.
+    enum class Stepping { strides, single };
 
     /// `step` is the duration of a time step, s. `collision_masks[i]` are the layers that collide with layer
     /// i; when it is empty, all layers collide with each other.
     Physics(std::span<const Obstacle> obstacles, std::span<const Body> bodies, double step,
-            Contacts contacts = Contacts::when_near, std::vector<LayerMask> collision_masks = {});
+            Stepping stepping = Stepping::strides, std::vector<LayerMask> collision_masks = {});
     ~Physics();
     Physics(const Physics&) = delete;
     Physics& operator=(const Physics&) = delete;
@@ -143,9 +140,10 @@ class Physics {
         std::size_t first = 0, count = 0;  ///< in members_
         bool free = false;
     };
-    /// A shape of a body in world coordinates.
+    /// A shape of a body or an obstacle in world coordinates.
     struct PlacedShape {
         Outline outline;
+        std::size_t index = 0;  ///< in its body
         int layer = 0;
         double bounding_radius = 0;  ///< m
         double friction = 0;
@@ -157,10 +155,11 @@ class Physics {
         bool valid = false;
     };
     static constexpr double near_distance = 0.001;  ///< m; well above the errors of Bullet's single precision
-    static constexpr double touch_distance = 0.0005;  ///< m; shapes closer than this touch
 
     void coast(std::size_t body, std::uint64_t steps, Velocity& mean, Velocity& end) const;
-    void move(std::size_t body, const Velocity& mean, double seconds);
+    void move(std::size_t body, Velocity mean, double seconds);
+    bool make_stride(std::span<const std::size_t> members, std::span<const Velocity> velocities,
+                     std::uint64_t steps);
     void update_bounding_radius(std::size_t body);
     void checkpoint_parts(std::size_t body, Archive& archive);
     bool can_collide(LayerMask layers, int layer) const {
@@ -168,8 +167,7 @@ class Physics {
     }
     // ---- islands ----
     double circle_gap(std::size_t a, std::size_t b) const;
-    double shape_gap(std::size_t a, std::size_t b);
-    bool may_be_closer_than(std::size_t a, std::size_t b, double distance);
+    double shape_gap(std::size_t a, std::size_t b, double limit);
     double lever_arm(std::size_t body) const;
     double max_displacement(std::size_t body, double travel, double turn) const;
     double max_displacement(std::size_t body, const Velocity& v, double seconds) const {
@@ -190,24 +188,35 @@ class Physics {
         });
     }
     // ---- contacts ----
-    /// A body and an obstacle or another body that it may touch in the current stride.
-    struct Encounter {
-        std::size_t body, other;
-        bool is_obstacle;
-        double reach;  ///< gaps that are larger do not close in the stride, m
-    };
     void solve_contacts(std::span<const std::size_t> bodies, std::uint64_t steps);
-    void find_encounters(double seconds);
-    void find_contacts(std::uint64_t steps);
-    void begin_with_impulses_before(std::uint64_t steps);
-    void note_touch(const Encounter& encounter);
-    // ---- separation ----
+    void add_contacts(std::size_t a, const PlacedShape& of_a, std::size_t b, const PlacedShape& of_b,
+                      double within);
+    bool penetrates(std::size_t a, std::size_t b);
     template <class F>
     void for_each_penetration(std::span<const std::size_t> bodies, F&& visit);
-    double depth_before_step(std::size_t a, std::size_t p, std::size_t b, std::size_t q) const;
-    void translate(std::size_t body, double x, double y);
-    void separate(std::span<const std::size_t> bodies);
-    void revert_penetrating(std::span<const std::size_t> bodies);
+    bool undo_penetrations(std::span<const std::size_t> bodies, std::uint64_t steps);
+    /// Calls visit(shape, obstacle) for the shapes of a body that can collide with obstacles which may be
+    /// closer than `reach` (m).
+    template <class F>
+    void for_each_obstacle_pair(std::size_t body, double reach, F&& visit) {
+        for_each_obstacle_near(body, reach, [&](const Obstacle& o, std::size_t number) {
+            const PlacedShape& obstacle = obstacle_shapes_[number];
+            for (const PlacedShape& p : shapes(body))
+                if (o.layers >> p.layer & 1u &&
+                    closer_than(p.outline, o.outline, reach + p.bounding_radius + obstacle.bounding_radius))
+                    visit(p, obstacle);
+        });
+    }
+    /// The same for the shapes of two bodies.
+    template <class F>
+    void for_each_pair(std::size_t a, std::size_t b, double reach, F&& visit) {
+        if (circle_gap(a, b) >= reach) return;
+        for (const PlacedShape& p : shapes(a))
+            for (const PlacedShape& q : shapes(b))
+                if (can_collide(LayerMask{1} << p.layer, q.layer) &&
+                    closer_than(p.outline, q.outline, reach + p.bounding_radius + q.bounding_radius))
+                    visit(p, q);
+    }
     // ---- rotation of parts ----
     bool is_blocked(std::size_t body, const Part& part, const Outline& target) const;
     bool can_move(std::size_t body, const Pose2& from, const Pose2& to) const;
@@ -229,14 +238,17 @@ class Physics {
         for (const Part& part : b.parts) visit(pose * part.outline, part.layer, part.friction);
     }
 
+    Outline outline(std::size_t body, std::size_t index, const Pose2& pose) const;
+
     std::vector<Obstacle> obstacles_;
+    std::vector<PlacedShape> obstacle_shapes_;
     Grid obstacle_grid_;
     std::vector<Body> bodies_;
     std::vector<State> states_;
     std::vector<Velocity> velocities_;
     std::vector<ShapeCache> shape_caches_;
     double step_;  ///< s
-    Contacts contacts_;
+    Stepping stepping_;
     std::vector<LayerMask> collision_masks_;
     std::vector<char> touched_;  ///< one per body; empty when touches are not noted
     std::uint64_t contact_steps_ = 0;
@@ -255,20 +267,14 @@ class Physics {
     std::vector<Velocity> undisturbed_, coasting_;  ///< per movable object: if nothing touches it, its mean
                                                     ///< velocity in the stride, and the one after it
     std::vector<std::size_t> active_;               ///< the active bodies of the island
-    std::vector<Encounter> encounters_;
-    std::vector<std::size_t> number_;  ///< per active body: its number in pushed_bodies_
-    std::vector<PushedBody> pushed_bodies_;
-    std::vector<PointContact> point_contacts_, contacts_before_;  ///< of this stride and of the one before
-    std::uint64_t steps_before_ = 1;                              ///< of the stride before
-    ContactSolver contact_solver_;
-    std::vector<Pose2> poses_before_;        ///< before the current stride
-    std::vector<char> reverted_;             ///< whether a body is put back to its pose before
+    std::vector<Eigen::Vector2d> corrections_;      ///< per body: moves it out of what it penetrates, m
+    std::vector<State> states_before_;              ///< before the current stride
+    std::vector<Velocity> velocities_before_;
     std::vector<Velocity> step_velocities_;  ///< of step(), and step_reach_, too
     std::vector<Reach> step_reach_;
     std::vector<Outline> outlines_before_;               ///< outlines of parts before rotate_parts()
     std::vector<std::pair<std::size_t, Pose2>> pushed_;  ///< bodies that parts pushed, with the poses before
-    std::unique_ptr<BulletContacts> bullet_contacts_;
-    std::unique_ptr<BoxContacts> box_contacts_;
+    std::unique_ptr<BulletWorld> bullet_;
 };
 
 }  // namespace forage::bug

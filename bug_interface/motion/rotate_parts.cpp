@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "bug_interface/motion/overlap.h"
+#include "bug_interface/motion/bullet_world.h"
 #include "bug_interface/motion/physics.h"
 
 namespace forage::bug {
 namespace {
 
-constexpr double tolerance = 1e-6;  ///< m; shapes may overlap by this
+constexpr double tolerance = 1e-5;  ///< m; shapes may overlap by this
 
 /// An upper bound of the displacement of any point of a shape, m.
 double displacement_bound(const Outline& from, const Outline& to) {
@@ -17,10 +17,10 @@ double displacement_bound(const Outline& from, const Outline& to) {
 }
 
 /// Whether the motion of a shape from `from` to `to` makes it overlap `other`, or overlap it more.
-bool penetrates(const Outline& other, const Outline& from, const Outline& to) {
+bool overlaps_more(BulletWorld& bullet, const Outline& other, const Outline& from, const Outline& to) {
     if (!closer_than(other, to, bounding_radius(other) + bounding_radius(to))) return false;
-    const double depth = overlap(other, to).depth;
-    return depth > tolerance && depth > overlap(other, from).depth;
+    const double gap = bullet.gap(other, to).distance;
+    return gap < -tolerance && gap < bullet.gap(other, from).distance;
 }
 
 }  // namespace
@@ -30,17 +30,17 @@ bool Physics::is_blocked(std::size_t body, const Part& part, const Outline& targ
     const Transform2 pose(states_[body].pose);
     const Outline from = pose * part.outline, to = pose * target;
     bool blocked = false;
-    for_each_obstacle_near(body, reach_[body].parts * static_cast<double>(steps_),
-                           [&](const Obstacle& o, std::size_t) {
-                               blocked |= o.layers >> part.layer & 1u && penetrates(o.outline, from, to);
-                           });
+    for_each_obstacle_near(
+        body, reach_[body].parts * static_cast<double>(steps_), [&](const Obstacle& o, std::size_t) {
+            blocked |= o.layers >> part.layer & 1u && overlaps_more(*bullet_, o.outline, from, to);
+        });
     for (const std::size_t other : near_[body]) {
         const State& s = states_[other];
         if (blocked || !bodies_[other].driven ||
             !closer_than(to, s.pose, bounding_radius(to) + s.bounding_radius))
             continue;
         for_each_shape(other, s.pose, [&](const Outline& o, int layer, double) {
-            blocked |= can_collide(LayerMask{1} << part.layer, layer) && penetrates(o, from, to);
+            blocked |= can_collide(LayerMask{1} << part.layer, layer) && overlaps_more(*bullet_, o, from, to);
         });
     }
     return blocked;
@@ -51,14 +51,15 @@ bool Physics::can_move(std::size_t body, const Pose2& from, const Pose2& to) con
     bool free = true;
     const auto test = [&](const Outline& before, const Outline& after, int layer) {
         for (const Obstacle& o : obstacles_)
-            if (o.layers >> layer & 1u) free &= !penetrates(o.outline, before, after);
+            if (o.layers >> layer & 1u) free &= !overlaps_more(*bullet_, o.outline, before, after);
         for (std::size_t other = 0; other < states_.size(); ++other) {
             const State& s = states_[other];
             if (other == body || !s.present ||
                 !closer_than(after, s.pose, bounding_radius(after) + s.bounding_radius))
                 continue;
             for_each_shape(other, s.pose, [&](const Outline& o, int other_layer, double) {
-                if (can_collide(LayerMask{1} << layer, other_layer)) free &= !penetrates(o, before, after);
+                if (can_collide(LayerMask{1} << layer, other_layer))
+                    free &= !overlaps_more(*bullet_, o, before, after);
             });
         }
     };
@@ -95,15 +96,16 @@ bool Physics::push_objects(std::size_t body, std::span<const std::pair<std::size
         for (std::size_t i = 0; i < parts.size(); ++i) {
             const Outline after = pose * parts[i].second, before = pose * outlines_before_[i];
             const int layer = bodies_[body].parts[parts[i].first].layer;
-            Overlap deepest;
+            BulletWorld::Gap deepest{0, Eigen::Vector2d::Zero()};
             for_each_shape(object, other.pose, [&](const Outline& o, int object_layer, double) {
                 if (!can_collide(LayerMask{1} << layer, object_layer)) return;
-                const Overlap in = overlap(after, o);
-                if (in.depth > tolerance && in.depth > overlap(before, o).depth && in.depth > deepest.depth)
-                    deepest = in;
+                const BulletWorld::Gap gap = bullet_->gap(o, after);
+                if (gap.distance < std::min(-tolerance, deepest.distance) &&
+                    gap.distance < bullet_->gap(o, before).distance)
+                    deepest = gap;
             });
-            other.pose.x += deepest.depth * deepest.normal.x();
-            other.pose.y += deepest.depth * deepest.normal.y();
+            other.pose.x -= deepest.distance * deepest.normal.x();
+            other.pose.y -= deepest.distance * deepest.normal.y();
         }
         if (other.pose.x == from.x && other.pose.y == from.y) continue;
         pushed_.emplace_back(object, from);

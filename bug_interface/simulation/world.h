@@ -31,8 +31,8 @@ struct WorldOptions {
     bool sensor_rates = false;  ///< whether sensors have the rates of the world file, instead of every cycle
     int latency = 0;            ///< cycles until modules receive what was sensed
     bool game = false;          ///< whether the challenge's game is played in a world without rules
-    /// How contacts are found; all but the default is for tests.
-    Physics::Contacts contacts = Physics::Contacts::when_near;
+    /// How many steps are made together; all but the default is for tests.
+    Physics::Stepping stepping = Physics::Stepping::strides;
 };
 
 /// A world with robots and movable objects. A robot is a model with a link named "bug" and the velocity

@@ -81,7 +81,7 @@ bool World::build(Diagnostics& diagnostics) {
     std::rotate(bodies_.begin(), bodies_.begin() + static_cast<std::ptrdiff_t>(movable_objects_.size()),
                 bodies_.end());
     physics_ = std::make_unique<Physics>(obstacles_of(description_, heights_), bodies_, description_.step,
-                                         options_.contacts, heights_.collision_masks());
+                                         options_.stepping, heights_.collision_masks());
     drives_.resize(bodies_.size()), reach_.resize(bodies_.size());
     driven_.assign(robots_.size(), 1);
     body_poses_.bodies.resize(bodies_.size()), body_poses_.present.assign(bodies_.size(), 1);

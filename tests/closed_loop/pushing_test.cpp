@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "bug_interface/motion/overlap.h"
 #include "core/base/random.h"
+#include "tests/support/overlap.h"
 #include "tests/unit/bug_interface/worlds.h"
 
 using namespace forage;

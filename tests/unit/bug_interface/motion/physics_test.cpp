@@ -7,12 +7,13 @@
 
 #include "core/base/random.h"
 #include "tests/support/catch.h"
+#include "tests/support/overlap.h"
 #include "tests/unit/bug_interface/physics_step.h"
 
 using namespace forage::bug;
 using forage::test::physics_step_s;
 using std::numbers::pi;
-using Contacts = Physics::Contacts;
+using Stepping = Physics::Stepping;
 
 namespace {
 
@@ -44,8 +45,8 @@ double distance(const Obstacle& obstacle, const Pose2& p) {
 struct OneRobot {
     std::vector<Obstacle> obstacles;
     Physics physics;
-    OneRobot(std::vector<Obstacle> o, Pose2 start, Contacts contacts = Contacts::when_near)
-        : obstacles(std::move(o)), physics(obstacles, std::vector<Body>(1), physics_step_s, contacts) {
+    OneRobot(std::vector<Obstacle> o, Pose2 start, Stepping stepping = Stepping::strides)
+        : obstacles(std::move(o)), physics(obstacles, std::vector<Body>(1), physics_step_s, stepping) {
         physics.place(0, start);
     }
     void drive(MotorCommand command, int steps = 1) {
@@ -87,24 +88,23 @@ TEST_CASE("The yaw stays in (-pi, pi]") {
     CHECK(r.pose().yaw == Approx(3));
 }
 
-TEST_CASE("A step of a disc is that of Bullet, and without contacts it has the same bits") {
-    OneRobot closed_form(furnished_room, {0, 0, 0.5}),
-        bullet(furnished_room, {0, 0, 0.5}, Contacts::always_bullet);
+TEST_CASE(
+    "A step is the same when contacts are looked for everywhere, and without contacts it has the same bits") {
+    OneRobot near(furnished_room, {0, 0, 0.5}), everywhere(furnished_room, {0, 0, 0.5}, Stepping::single);
     const forage::RandomStream random(3, "drive");
     int touching = 0, farther = 0;
     for (std::uint64_t i = 0; i < 20000; ++i) {
         const MotorCommand c{2 * random.uniform(i / 50, 0) - 0.6, 6 * random.uniform(i / 50, 1) - 3};
-        bullet.physics.place(0, closed_form.pose());
-        const auto contacts = closed_form.physics.contact_steps();
-        closed_form.drive(c), bullet.drive(c);
-        const Pose2 &a = closed_form.pose(), &b = bullet.pose();
+        everywhere.physics.place(0, near.pose());
+        const auto contacts = near.physics.contact_steps();
+        near.drive(c), everywhere.drive(c);
+        const Pose2 &a = near.pose(), &b = everywhere.pose();
         INFO("step " << i);
-        if (closed_form.physics.contact_steps() == contacts) {
+        if (near.physics.contact_steps() == contacts) {
             REQUIRE((a.x == b.x && a.y == b.y && a.yaw == b.yaw));
             continue;
         }
         ++touching;
-        // In corners Bullet's iterations may end before the closed form's.
         REQUIRE(std::hypot(a.x - b.x, a.y - b.y) < 1e-4);
         REQUIRE(std::abs(std::remainder(a.yaw - b.yaw, 2 * pi)) < 1e-4);
         farther += std::hypot(a.x - b.x, a.y - b.y) > 2e-6;
@@ -162,7 +162,7 @@ TEST_CASE("Objects that overlap at rest stay where they are") {
     Body ball;
     ball.driven = false, ball.radius = 0.08, ball.mass = 0.01, ball.inertia = 1;
     const std::array<Body, 3> bodies = {Body{}, ball, ball};
-    for (const auto when : {Physics::Contacts::when_near, Physics::Contacts::always_bullet}) {
+    for (const auto when : {Stepping::strides, Stepping::single}) {
         Physics p({}, bodies, physics_step_s, when);
         p.place(0, {5, 0, 0}), p.place(1, {0, 0, 0}), p.place(2, {2 * ball.radius - 0.0007, 0, 0});
         for (int i = 0; i < 100; ++i) p.step(std::array<MotorCommand, 3>{{{0.1, 0.1}, {}, {}}});

@@ -1,5 +1,4 @@
-// Strides and contacts in closed form are compared with Bullet in steps of 1 ms: what slides, pushes and
-// holds must move in the same way.
+// Strides are compared with steps of 1 ms: what slides, pushes and holds must move in the same way.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,8 +17,6 @@ using test::description;
 using test::make_world;
 
 namespace {
-
-using Contacts = Physics::Contacts;
 
 /// One of the models of the team arena with another name and pose.
 Model copy_of(const WorldDescription& world, const std::string& name, const std::string& as,
@@ -43,14 +40,14 @@ Model ball_model(const std::string& name, double x, double y) {
     return model;
 }
 
-/// A world in both ways of finding contacts, with the same random numbers.
+/// A world in strides and in single steps, with the same random numbers.
 struct Both {
     std::unique_ptr<World> strides, steps;
     Both(const WorldDescription& text, std::uint64_t seed) {
         WorldOptions options;
         options.seed = seed;
         strides = make_world(text, options);
-        options.contacts = Contacts::always_bullet;
+        options.stepping = Physics::Stepping::single;
         steps = make_world(text, options);
     }
     void command(std::size_t bug, const MotorCommand& c) { strides->command(bug, c), steps->command(bug, c); }

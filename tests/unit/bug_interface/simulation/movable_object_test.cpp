@@ -4,8 +4,8 @@
 #include <numbers>
 #include <vector>
 
-#include "bug_interface/motion/overlap.h"
 #include "core/base/random.h"
+#include "tests/support/overlap.h"
 #include "tests/unit/bug_interface/physics_step.h"
 #include "tests/unit/bug_interface/worlds.h"
 
@@ -121,7 +121,7 @@ TEST_CASE("Shapes touch only if they share heights") {
     beam[0].outline = wall(1, 0, 0.2, 4), beam[0].layers = 2;
     Body low, high;
     high.layer = 1;
-    Physics p(beam, std::vector<Body>{low, high}, physics_step_s, Physics::Contacts::when_near, {1, 2});
+    Physics p(beam, std::vector<Body>{low, high}, physics_step_s, Physics::Stepping::strides, {1, 2});
     p.place(0, {0, 0, 0}), p.place(1, {0, 0, 0});
     for (int i = 0; i < 2000; ++i) p.step(std::array{MotorCommand{1, 0}, MotorCommand{1, 0}});
     CHECK(p.pose(0).x == Approx(2));

@@ -1,23 +1,36 @@
-#include "bug_interface/motion/overlap.h"
+// The penetration depth of two outlines, in closed form: what tests compare the physics with.
+#pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+
+#include <Eigen/Core>
+
+#include "bug_interface/sensing/outline.h"
 
 namespace forage::bug {
-namespace {
+
+/// How far two outlines penetrate each other.
+struct Overlap {
+    double depth = 0;  ///< penetration depth, m; negative values are a lower bound of the gap
+    Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  ///< unit vector; moves the second outline out
+};
+
+namespace detail {
 
 using Eigen::Vector2d;
 
-Vector2d centre(const Outline& o) { return {o.x, o.y}; }
+inline Vector2d centre(const Outline& o) { return {o.x, o.y}; }
 
-Overlap circles(const Outline& a, const Outline& b) {
+inline Overlap circles(const Outline& a, const Outline& b) {
     const Vector2d between = centre(b) - centre(a);
     const double distance = between.norm();
     return {a.radius + b.radius - distance, distance > 0 ? Vector2d(between / distance) : Vector2d(1, 0)};
 }
 
-Overlap box_circle(const Outline& box, const Outline& circle) {
+inline Overlap box_circle(const Outline& box, const Outline& circle) {
     const Vector2d between = centre(circle) - centre(box);
     const Vector2d along(box.cos_yaw, box.sin_yaw), across(-box.sin_yaw, box.cos_yaw);
     const double u = between.dot(along), v = between.dot(across);
@@ -32,7 +45,7 @@ Overlap box_circle(const Outline& box, const Outline& circle) {
 }
 
 /// Uses the separating axis theorem with the axes of both boxes.
-Overlap boxes(const Outline& a, const Outline& b, double threshold) {
+inline Overlap boxes(const Outline& a, const Outline& b, double threshold) {
     const Vector2d between = centre(b) - centre(a);
     const std::array<Vector2d, 2> axes_a = {Vector2d(a.cos_yaw, a.sin_yaw), Vector2d(-a.sin_yaw, a.cos_yaw)};
     const std::array<Vector2d, 2> axes_b = {Vector2d(b.cos_yaw, b.sin_yaw), Vector2d(-b.sin_yaw, b.cos_yaw)};
@@ -51,23 +64,19 @@ Overlap boxes(const Outline& a, const Outline& b, double threshold) {
     return least;
 }
 
-}  // namespace
+}  // namespace detail
 
-Overlap overlap(const Outline& a, const Outline& b, double least) {
+/// The overlap of `b` with `a`. The depth is exact when it is less than half the smaller outline. For
+/// outlines apart, -depth is a lower bound of the gap.
+inline Overlap overlap(const Outline& a, const Outline& b) {
+    constexpr double least = -std::numeric_limits<double>::infinity();
+    using namespace detail;
     if (a.round && b.round) return circles(a, b);
     if (b.round) return box_circle(a, b);
     if (!a.round) return boxes(a, b, least);
     Overlap turned = box_circle(b, a);
     turned.normal = -turned.normal;
     return turned;
-}
-
-double distance_to(const Outline& o, double x, double y) {
-    const double dx = x - o.x, dy = y - o.y;
-    if (o.round) return std::max(0.0, std::sqrt(dx * dx + dy * dy) - o.radius);
-    const double out_x = std::max(0.0, std::abs(o.cos_yaw * dx + o.sin_yaw * dy) - o.half_x);
-    const double out_y = std::max(0.0, std::abs(o.cos_yaw * dy - o.sin_yaw * dx) - o.half_y);
-    return std::sqrt(out_x * out_x + out_y * out_y);
 }
 
 }  // namespace forage::bug
