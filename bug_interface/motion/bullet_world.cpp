@@ -16,12 +16,6 @@ constexpr double max_corrected_depth = 0.002;  ///< m; shapes that the world put
 
 btScalar scalar(double v) { return static_cast<btScalar>(v); }
 
-btDefaultCollisionConstructionInfo small_pools() {
-    btDefaultCollisionConstructionInfo info;
-    info.m_defaultMaxPersistentManifoldPoolSize = info.m_defaultMaxCollisionAlgorithmPoolSize = 4;
-    return info;
-}
-
 btRigidBody::btRigidBodyConstructionInfo body_info(btScalar mass) {
     return {mass, nullptr, nullptr, {mass, mass, mass}};
 }
@@ -49,20 +43,12 @@ double extension(const Outline& o, const btVector3& n) {
 
 }  // namespace
 
-btCollisionAlgorithm* BulletWorld::SphereBox::CreateCollisionAlgorithm(
-    btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* sphere,
-    const btCollisionObjectWrapper* box) {
-    void* memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(btSphereBoxCollisionAlgorithm));
-    return new (memory) btSphereBoxCollisionAlgorithm(info.m_manifold, info, sphere, box, false);
-}
-
 BulletWorld::BulletWorld(std::size_t bodies)
-    : configuration_(small_pools()),
-      dispatcher_(&configuration_),
-      unused_(nullptr, nullptr, 0, 0, 0),
+    : unused_(nullptr, nullptr, 0, 0, 0),
+      discs_(&unused_, {}, nullptr, nullptr),
+      disc_and_box_(&unused_, {}, nullptr, nullptr, false),
+      boxes_(&unused_, {}, nullptr, nullptr),
       fixed_(body_info(0)) {
-    dispatcher_.setDispatcherFlags(0);
-    dispatcher_.registerCollisionCreateFunc(SPHERE_SHAPE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, &sphere_box_);
     // The scalar solver gives the same bits on all processors; the vectorised ones do not.
     solver_.setConstraintRowSolverGeneric(solver_.getScalarConstraintRowSolverGeneric());
     solver_.setConstraintRowSolverLowerLimit(solver_.getScalarConstraintRowSolverLowerLimit());
@@ -116,11 +102,10 @@ std::span<const BulletWorld::Point> BulletWorld::closest(const Outline& a, const
     const btCollisionObjectWrapper of_a(nullptr, shapes_[0].resize(a, larger), &fixed_, at_a, -1, -1),
         of_b(nullptr, shapes_[1].resize(b, a.round ? 0 : larger), &fixed_, at_b, -1, -1);
     Result result(of_a, of_b, points_);
-    btCollisionAlgorithm* algorithm =
-        dispatcher_.findAlgorithm(&of_a, &of_b, &unused_, BT_CONTACT_POINT_ALGORITHMS);
+    btCollisionAlgorithm* algorithm = &boxes_;
+    if (a.round) algorithm = &disc_and_box_;
+    if (b.round) algorithm = &discs_;
     algorithm->processCollision(&of_a, &of_b, {}, &result);
-    algorithm->~btCollisionAlgorithm();
-    dispatcher_.freeCollisionAlgorithm(algorithm);
     for (Point& p : points_) {
         p.distance += a.round ? larger : larger * (extension(a, p.normal) + extension(b, p.normal));
         if (!a.round) p.position = nearest_point(a, at_a, nearest_point(b, at_b, p.position));

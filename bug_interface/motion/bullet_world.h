@@ -7,7 +7,9 @@
 #include <span>
 #include <vector>
 
+#include <BulletCollision/CollisionDispatch/btBoxBoxCollisionAlgorithm.h>
 #include <BulletCollision/CollisionDispatch/btSphereBoxCollisionAlgorithm.h>
+#include <BulletCollision/CollisionDispatch/btSphereSphereCollisionAlgorithm.h>
 #include <BulletDynamics/ConstraintSolver/btNNCGConstraintSolver.h>
 #include <Eigen/Core>
 #include <btBulletDynamicsCommon.h>
@@ -68,21 +70,16 @@ class BulletWorld {
         btSphereShape sphere{1};
         btBoxShape box{{1, 1, 1}};
     };
-    struct SphereBox final : btCollisionAlgorithmCreateFunc {
-        btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
-                                                       const btCollisionObjectWrapper* sphere,
-                                                       const btCollisionObjectWrapper* box) override;
-    };
     std::span<const Point> closest(const Outline& a, const Outline& b, double within, double x, double y);
 
-    btDefaultCollisionConfiguration configuration_;
-    btCollisionDispatcher dispatcher_;
-    SphereBox sphere_box_;
+    btPersistentManifold unused_;  ///< the algorithms need one, but their points are taken by Result
+    btSphereSphereCollisionAlgorithm discs_;
+    btSphereBoxCollisionAlgorithm disc_and_box_;
+    btBoxBoxCollisionAlgorithm boxes_;
     Shape shapes_[2];
     btNNCGConstraintSolver solver_;
     btContactSolverInfo info_;
-    btPersistentManifold unused_;  ///< an algorithm needs one, but its points are taken by Result
-    btRigidBody fixed_;            ///< all obstacles
+    btRigidBody fixed_;  ///< all obstacles
     std::vector<std::unique_ptr<btRigidBody>> bodies_;
     std::vector<std::unique_ptr<btPersistentManifold>> manifolds_;  ///< as many as any solution has needed
     std::vector<btCollisionObject*> used_bodies_;
