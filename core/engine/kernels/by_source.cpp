@@ -192,9 +192,9 @@ class BySource final : public SharedKernel {
 }  // namespace
 
 bool fits_matrix(const Array& weights, GroupShape target) {
-    constexpr int least_targets = 8;
+    constexpr int min_targets = 8;
     const auto places = static_cast<double>(weights.rows()) * static_cast<double>(weights.columns());
-    return target.cells >= least_targets &&
+    return target.cells >= min_targets &&
            places <= max_places * (places - static_cast<double>(weights.left_out()));
 }
 
