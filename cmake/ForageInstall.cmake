@@ -37,7 +37,7 @@ install(SCRIPT cmake/InstallPublicHeaders.cmake COMPONENT dev)
 # Plugins need only Eigen. Programs that run systems need the libraries that Forage itself uses.
 set(directories INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} ${FORAGE_HEADER_DIR})
 install(TARGETS forage_sdk forage_random EXPORT ForageSdk ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/forage COMPONENT dev ${directories})
-install(TARGETS forage_api forage_base forage_formula forage_types forage_model forage_connectivity forage_xml forage_engine forage_observe forage_run
+install(TARGETS forage_api forage_base forage_formula forage_types forage_model forage_equations forage_connectivity forage_xml forage_engine forage_observe forage_run
                 forage_plugin forage_neurons forage_synapses forage_modules forage_devices forage_bug_world forage_bug_sensing forage_bug_motion
                 forage_bug_simulation forage_bug_module forage_bug_interface forage_plot
         EXPORT ForageEmbedding ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}/forage COMPONENT dev ${directories})

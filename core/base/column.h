@@ -15,6 +15,8 @@ using ConstColumn = Eigen::Map<const Eigen::ArrayXd>;
 /// The three ways in which a connection acts on its target.
 enum class InputKind { excitatory, inhibitory, modulatory };
 inline constexpr int input_kinds = 3;
+/// How many inputs a type may have: these, and further ones that it declares (NeuronType::inputs).
+inline constexpr int max_inputs = 8;
 
 /// The size of a group: `width` cells to the right, `height` cells downwards; cell = row * width + column.
 /// A sparse group has fewer `cells` than width * height.

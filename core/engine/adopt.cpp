@@ -56,7 +56,7 @@ class Adoption {
         else if (g.past)  // the last cycle is in the states
             copy(g.past, p.history + 1, activity.ring, activity.depth);
         const std::size_t next = old.delivered ? old.row ^ 1 : old.row;
-        for (std::size_t kind = 0; kind < input_kinds; ++kind) {
+        for (std::size_t kind = 0; kind < max_inputs; ++kind) {
             if (!p.fed[kind]) continue;  // nothing would ever replace it
             std::copy_n(old.inputs[kind][old.row], p.cells, g.inputs[kind][g.row]);
             std::copy_n(old.inputs[kind][next], p.cells, g.inputs[kind][g.row ^ 1]);

@@ -116,9 +116,11 @@ Cycle::Found Cycle::update_part(int group, Part part, int thread) {
     const bool small = p.cells <= max_compared;
     if (small && cycle > 0) std::copy_n(activity_row(g, p, cycle - 1) + first, count, old);
 
-    NeuronColumns columns(count, p.stride, cycle,
-                          {g.inputs[0][g.row], g.inputs[1][g.row], g.inputs[2][g.row]}, g.states, p.random,
-                          workers_[thread].scratch.get(), {!p.fed[0], !p.fed[1], !p.fed[2]}, first);
+    std::array<double*, max_inputs> inputs;
+    std::array<bool, max_inputs> silent;
+    for (std::size_t k = 0; k < max_inputs; ++k) inputs[k] = g.inputs[k][g.row], silent[k] = !p.fed[k];
+    NeuronColumns columns(count, p.stride, cycle, inputs, g.states, p.random, workers_[thread].scratch.get(),
+                          silent, first);
     try {
         g.neuron->update(columns);
     } catch (...) {
@@ -136,6 +138,7 @@ Cycle::Found Cycle::update_part(int group, Part part, int thread) {
     found.quiescent = g.looks && columns.time_invariant() && at_rest(g, p.stride, first, count, before);
     if (found.quiescent && count == p.cells) return found;  // other parts need to know what this one holds
     const double* now = activity_row(g, p, cycle) + first;
+    if (p.shows_states) return found.same_activity = found.silent = false, found;
     found.same_activity = small && cycle > 0 && same_bits(now, old, count);
     found.silent = !small && all_zero(now, count);
     return found;
@@ -292,8 +295,10 @@ void Cycle::deliver_through(int connection, const Share* share) {
     const auto& from = plan_.groups[plan.source];
     const auto &source = state_.groups[plan.source], &target = state_.groups[plan.target];
     auto& c = state_.connections[connection];
-    const KernelInput in{activity_row(source, from, state_.cycle),
-                         {source.past, from.history + 1, from.stride},
+    const auto& shown = source.states[static_cast<std::size_t>(plan.state)];
+    const KernelInput in{state_row(source, from, plan.state, state_.cycle),
+                         plan.state == from.output ? Ring{source.past, from.history + 1, from.stride}
+                                                   : Ring{shown.ring, shown.depth, from.stride},
                          state_.cycle,
                          *c.synapse,
                          c.feedback,

@@ -80,7 +80,7 @@ void State::begin(const Plan& plan) {
             for (std::int64_t row = 0; row < depth; ++row)
                 std::fill_n(at(first) + row * p.stride, p.cells, type.states[s].initial);
         }
-        for (std::size_t k = 0; k < input_kinds; ++k)
+        for (std::size_t k = 0; k < type.input_count(); ++k)
             for (std::size_t row = 0; row < 2; ++row) g.inputs[k][row] = at(p.inputs[k][row]);
         if (p.history > 0) g.past = at(p.past);
     }
@@ -99,11 +99,13 @@ void State::begin(const Plan& plan) {
     for (std::size_t i = 0; i < connections.size(); ++i) {
         const auto& p = plan.connections[i];
         if (p.pruned) continue;
-        for (const int s : p.feedback) {
+        for (std::size_t f = 0; f < p.feedback.size(); ++f) {
+            const int s = p.feedback[f];
             const auto& target = groups[p.target];
-            connections[i].feedback.push_back(
-                s < 0 ? Ring{nullptr, 1, 0}
-                      : Ring{target.states[s].ring, target.states[s].depth, plan.groups[p.target].stride});
+            connections[i].feedback.push_back(s < 0 ? Ring{nullptr, 1, 0}
+                                                    : Ring{target.states[s].ring, target.states[s].depth,
+                                                           plan.groups[p.target].stride,
+                                                           plan.layout.connections[i].type.feedback[f].ago});
         }
         if (p.plastic) p.plastic->begin(numbers.data());
         if (p.kernel) connections[i].workspace = p.kernel->make_workspace();

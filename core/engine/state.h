@@ -28,7 +28,7 @@ struct GroupState {
     std::int64_t changed = 0;    ///< the last cycle whose activity differed from that of the cycle before
 
     std::vector<NeuronColumns::State> states;                  ///< their rings
-    std::array<std::array<double*, 2>, input_kinds> inputs{};  ///< of this and of the next cycle, in turns
+    std::array<std::array<double*, 2>, max_inputs> inputs{};  ///< of this and of the next cycle, in turns
     double* past = nullptr;                                    ///< ring of past activity
 };
 

@@ -26,7 +26,7 @@ double Formula::value(std::uint32_t node, const Names& names) const {
         case Op::divide:
             return part(0) / part(1);
         case Op::power:
-            return std::pow(part(0), part(1));
+            return power(part(0), part(1));
         case Op::negative:
             return -part(0);
         case Op::less:

@@ -1,6 +1,7 @@
 // Arithmetic in files: a text as a tree, and its value.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -19,9 +20,18 @@ struct FormulaError : std::invalid_argument {
     std::string hint;  ///< may be empty
 };
 
+/// The power `base`^`exponent`. Squares and cubes are products.
+inline double power(double base, double exponent) {
+    return exponent == 2 ? base * base : exponent == 3 ? base * base * base : std::pow(base, exponent);
+}
+
 /// An expression of numbers, names, operators and functions.
 class Formula {
   public:
+    /// Where a formula stands. Equations of types also have names with a prime ("v'") and of the other end
+    /// ("post.v"), and draws, whose names are "normal()" and "uniform()".
+    enum class Place : std::uint8_t { value, equation };
+
     enum class Op : std::uint8_t {
         number,
         name,
@@ -63,13 +73,16 @@ class Formula {
     };
 
     /// Reads a text of at most 4096 bytes. Throws FormulaError.
-    explicit Formula(std::string_view text);
+    explicit Formula(std::string_view text, Place place = Place::value);
 
     /// The value of a name; throws FormulaError for a name that it does not know. `at` is its place.
     using Names = std::function<double(const std::string& name, std::size_t at)>;
     /// The value of the formula. Comparisons, `and`, `or` and `not` are 1 or 0; of `if(a, b, c)` only the
     /// part that counts is computed. Throws what `names` throws.
     double value(const Names& names) const;
+
+    const std::vector<Node>& nodes() const { return nodes_; }
+    const std::string& name(const Node& node) const { return names_[node.parts[0]]; }
 
   private:
     double value(std::uint32_t node, const Names& names) const;

@@ -36,6 +36,9 @@ constexpr std::array functions = {Function{"min", Op::minimum, 2, any_number},
                                   Function{"round", Op::round, 1, 1},
                                   Function{"if", Op::choice, 3, 3}};
 
+/// Random numbers of a cell, new in each cycle.
+constexpr std::array<std::string_view, 2> draws = {"normal", "uniform"};
+
 struct Operator {
     std::string_view text;
     Op op;
@@ -54,8 +57,9 @@ bool continues_name(char c) { return begins_name(c) || (c >= '0' && c <= '9'); }
 
 class Parser {
   public:
-    Parser(std::string_view text, std::vector<Node>& nodes, std::vector<std::string>& names)
-        : text_(text), nodes_(nodes), names_(names) {
+    Parser(std::string_view text, Formula::Place place, std::vector<Node>& nodes,
+           std::vector<std::string>& names)
+        : text_(text), in_equation_(place == Formula::Place::equation), nodes_(nodes), names_(names) {
         constexpr std::size_t longest = 4096;
         if (text.size() > longest)
             fail(0, fmt::format("it is longer than {} characters", longest), "use constants for its parts");
@@ -190,23 +194,45 @@ class Parser {
 
     std::uint32_t named() {
         const std::size_t at = at_;
-        const std::string name = word(at);
+        std::string name = word(at);
         at_ += name.size();
         if (take("(")) return call(name, at);
+        if (in_equation_) {
+            if (text_.substr(at_).starts_with('.') && at_ + 1 < text_.size() && begins_name(text_[at_ + 1])) {
+                const std::string state = word(at_ + 1);
+                at_ += 1 + state.size();
+                return add_name(name + "." + state + prime(), at);
+            }
+            name += prime();
+            if (name.ends_with('\'')) return add_name(name, at);
+        }
         if (name == "pi") return add(Op::number, at, 0, 0, 0, std::numbers::pi);
         if (!is_formula_name(name))
             fail(at, fmt::format("'{}' is not expected here", name),
                  std::ranges::find(functions, name, &Function::name) == functions.end()
                      ? ""
                      : fmt::format("its arguments stand in parentheses: {}(...)", name));
+        return add_name(name, at);
+    }
+    std::uint32_t add_name(const std::string& name, std::size_t at) {
         names_.push_back(name);
         return add(Op::name, at, static_cast<std::uint32_t>(names_.size() - 1));
     }
+    std::string prime() {
+        if (!text_.substr(at_).starts_with('\'')) return {};
+        ++at_;
+        return "'";
+    }
 
     std::uint32_t call(const std::string& name, std::size_t at) {
+        if (in_equation_ && std::ranges::find(draws, name) != draws.end()) {
+            if (!take(")")) fail(at, name + " has no arguments", "its numbers are scaled: m + s * normal()");
+            return add_name(name + "()", at);
+        }
         const auto* const f = std::ranges::find(functions, name, &Function::name);
         if (f == functions.end()) {
             std::vector<std::string> known;
+            if (in_equation_) known.assign(draws.begin(), draws.end());
             for (const auto& each : functions) known.emplace_back(each.name);
             fail(at, fmt::format("there is no function '{}'", name), suggest(name, known));
         }
@@ -230,6 +256,7 @@ class Parser {
     }
 
     std::string_view text_;
+    bool in_equation_;
     std::vector<Node>& nodes_;
     std::vector<std::string>& names_;
     std::size_t at_ = 0;
@@ -238,7 +265,7 @@ class Parser {
 
 }  // namespace
 
-Formula::Formula(std::string_view text) { Parser(text, nodes_, names_).whole(); }
+Formula::Formula(std::string_view text, Place place) { Parser(text, place, nodes_, names_).whole(); }
 
 bool is_formula_name(std::string_view name) {
     constexpr std::array<std::string_view, 4> words = {"and", "or", "not", "pi"};

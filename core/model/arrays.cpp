@@ -301,7 +301,17 @@ void write_out(Initial& i, Constants& constants, const Process* scope) {
     }
 }
 
-void refuse_arrays(const System& system, Diagnostics& diagnostics) {
+void refuse_extensions(const System& system, Diagnostics& diagnostics) {
+    for (const auto* all : {&system.neuron_types, &system.synapse_types})
+        for (const auto& type : *all)
+            diagnostics.error(type.at,
+                              fmt::format("plain iqr has no types in a file, such as '{}'", type.name),
+                              "a file for the original names types that it knows");
+    for (const auto& c : system.connections) {
+        if (!c.input.empty())
+            diagnostics.error(c.input_at, "plain iqr has three inputs, of which type= names one");
+        if (!c.state.empty()) diagnostics.error(c.state_at, "connections of plain iqr transmit the output");
+    }
     each_array(system.processes, system.connections, [&]<class T>(const T& item) {
         if constexpr (std::is_same_v<T, Weights>)
             diagnostics.error(item.at, "plain iqr has no weights of single synapses",

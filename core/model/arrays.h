@@ -69,6 +69,6 @@ std::vector<double> initial_values(const Initial& initial, Constants& constants,
 void write_out(Initial& initial, Constants& constants, const Process* scope);
 
 /// Reports the arrays of a system, which plain iqr cannot say.
-void refuse_arrays(const System& system, Diagnostics& diagnostics);
+void refuse_extensions(const System& system, Diagnostics& diagnostics);
 
 }  // namespace forage::model

@@ -253,6 +253,12 @@ void join(System& system, System other) {
     if (!agree(system.constants, other.constants)) write_out_formulas(other);
     for (auto& c : other.constants)
         if (!find_constant(system, c.name)) system.constants.push_back(std::move(c));
+    const auto take_over = [](auto& all, auto& more) {
+        for (auto& type : more)
+            if (std::ranges::find(all, type) == all.end()) all.push_back(std::move(type));
+    };
+    take_over(system.neuron_types, other.neuron_types);
+    take_over(system.synapse_types, other.synapse_types);
     add_prefix(system, "", "S{}_", other.processes, other.connections, other.canvas_comments);
     const auto named = [&](const std::string& name) {
         return std::ranges::any_of(system.processes,
@@ -303,7 +309,7 @@ void make_original(System& system) {
 void make_original(ProcessFile& file, Diagnostics& diagnostics) {
     System alone = system_of(std::move(file));
     compute(alone, diagnostics);
-    refuse_arrays(alone, diagnostics);
+    refuse_extensions(alone, diagnostics);
     make_original(alone);
     file = {std::move(alone.processes.front()), std::move(alone.connections)};
 }

@@ -34,11 +34,6 @@ bool same_structure(const Struct& a, const Struct& b) {
     return same;
 }
 
-const Setting* find(const TypeUse& use, const std::string& name) {
-    const auto it = std::ranges::find(use.settings, name, &Setting::name);
-    return it == use.settings.end() ? nullptr : &*it;
-}
-
 }  // namespace
 
 std::optional<std::vector<Assignment>> parameter_changes(const System& before, const System& after,
@@ -50,7 +45,7 @@ std::optional<std::vector<Assignment>> parameter_changes(const System& before, c
         const auto* parameters = parameters_of(registry, owner, is.type);
         if (!parameters) return;
         for (const Parameter& p : *parameters) {
-            const Setting *had = find(was, p.name), *has = find(is, p.name);
+            const Setting *had = was.setting(p.name), *has = is.setting(p.name);
             if (had ? has && had->in_force(p.kind) == has->in_force(p.kind) : !has) continue;
             ParameterValue value = p.default_value;
             if (has) {

@@ -1,6 +1,7 @@
 #include "core/model/constants.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -81,11 +82,49 @@ void each_setting(System& system, F f) {
         if (p.module)
             for (auto& s : p.module->settings) f(s, &p);
         for (auto& g : p.groups)
-            for (auto& s : g.neuron.settings) f(s, &p);
+            for (auto* all : {&g.neuron.settings, &g.neuron.defaults})
+                for (auto& s : *all) f(s, &p);
     }
     for (auto& c : system.connections)
         if (c.synapse)
-            for (auto& s : c.synapse->settings) f(s, scope_of(c, groups));
+            for (auto* all : {&c.synapse->settings, &c.synapse->defaults})
+                for (auto& s : *all) f(s, scope_of(c, groups));
+}
+
+/// Whether a text has this word.
+bool has_word(std::string_view text, std::string_view word) {
+    const auto in_name = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
+    for (auto at = text.find(word); at != text.npos; at = text.find(word, at + 1)) {
+        const auto end = at + word.size();
+        if ((at == 0 || !in_name(text[at - 1])) && (end == text.size() || !in_name(text[end]))) return true;
+    }
+    return false;
+}
+
+/// The parameters of a declared type that have formulas, and the constants that its equations name.
+std::vector<Setting> defaults_of(const TypeDeclaration& type, const System& system, const Process* process) {
+    std::vector<Setting> out;
+    for (const auto& c : type.constants)
+        if (in_braces(c.value)) out.push_back({c.name, c.value, c.name_at, c.value_at});
+    for (const auto& name : names_in(system, process))
+        if (!named(type.constants, name) &&
+            std::ranges::any_of(type.equations, [&](const PlacedText& e) { return has_word(e.text, name); }))
+            out.push_back({name, "{" + name + "}", {}, {}});
+    return out;
+}
+
+/// Finds the defaults of declared types in all their uses.
+void set_defaults(System& system) {
+    const auto set = [&](TypeUse& use, const std::vector<TypeDeclaration>& declared, const Process* process) {
+        const auto it = std::ranges::find(declared, use.type, &TypeDeclaration::name);
+        use.defaults = it == declared.end() ? std::vector<Setting>() : defaults_of(*it, system, process);
+    };
+    for (auto& p : system.processes)
+        for (auto& g : p.groups) set(g.neuron, system.neuron_types, &p);
+    if (system.synapse_types.empty()) return;
+    const GroupIndex groups(system);
+    for (auto& c : system.connections)
+        if (c.synapse) set(*c.synapse, system.synapse_types, scope_of(c, groups));
 }
 
 /// Gives a number the value of its formula. Reports one that it cannot have.
@@ -258,6 +297,7 @@ bool compute(System& system, Diagnostics& diagnostics) {
     each_with_formulas(system, [&](auto& s, const Process* process) {
         complete = compute_numbers(constants, s, process, diagnostics) && complete;
     });
+    set_defaults(system);
     each_setting(system, [&](Setting& s, const Process* process) {
         s.computed.clear();
         if (!in_braces(s.value)) return;

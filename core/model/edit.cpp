@@ -284,10 +284,9 @@ std::optional<Assignment> find_item(const System& system, std::string_view where
 ParameterValue value_of(const System& system, const Assignment& a) {
     if (a.owner == Assignment::Owner::constant) return Constants(system).value_of(a.id).value_or(0);
     if (!a.parameter) return with_id(system.processes, a.id).module_enabled;
-    for (const auto& s : use_of(system, a).settings)
-        if (s.name == a.parameter->name)
-            if (auto value = parse_parameter(a.parameter->kind, s.in_force(a.parameter->kind)))
-                return *std::move(value);
+    if (const auto* s = use_of(system, a).setting(a.parameter->name))
+        if (auto value = parse_parameter(a.parameter->kind, s->in_force(a.parameter->kind)))
+            return *std::move(value);
     return a.parameter->default_value;
 }
 

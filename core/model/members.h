@@ -37,6 +37,7 @@ inline constexpr auto members_of<TypeUse> = std::tuple{
     Member{&TypeUse::initial, "the initial values", Effect::rebuild},
     Member{&TypeUse::note, "the note of the type", Effect::none},
     Member{&TypeUse::at, "the location", Effect::none},
+    Member{&TypeUse::defaults, "the constants of the type", Effect::none},
 };
 template <>
 inline constexpr auto members_of<SynapseUse> = std::tuple_cat(
@@ -98,6 +99,8 @@ inline constexpr auto members_of<Connection> = std::tuple{
     Member{&Connection::source, "the source", Effect::rebuild},
     Member{&Connection::target, "the target", Effect::rebuild},
     Member{&Connection::kind, "the kind", Effect::rebuild},
+    Member{&Connection::input, "the input", Effect::rebuild},
+    Member{&Connection::state, "the state", Effect::rebuild},
     Member{&Connection::pattern, "the pattern", Effect::rebuild},
     Member{&Connection::arborization, "the arborization", Effect::rebuild},
     Member{&Connection::attenuation, "the attenuation", Effect::rebuild},
@@ -111,6 +114,8 @@ inline constexpr auto members_of<Connection> = std::tuple{
     Member{&Connection::at, "the location", Effect::none},
     Member{&Connection::source_at, "the location", Effect::none},
     Member{&Connection::target_at, "the location", Effect::none},
+    Member{&Connection::input_at, "the location", Effect::none},
+    Member{&Connection::state_at, "the location", Effect::none},
 };
 
 template <>
@@ -129,6 +134,8 @@ inline constexpr auto members_of<System> = std::tuple{
     Member{&System::comments, "the comments", Effect::none},
     Member{&System::canvas_comments, "the comments on the page", Effect::none},
     Member{&System::constants, "the constants", Effect::parameters},
+    Member{&System::neuron_types, "the neuron types", Effect::rebuild},
+    Member{&System::synapse_types, "the synapse types", Effect::rebuild},
     Member{&System::formulas, "the formulas", Effect::none},
     Member{&System::at, "the location", Effect::none},
 };

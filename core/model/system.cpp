@@ -2,9 +2,30 @@
 
 #include <algorithm>
 #include <limits>
+#include <sstream>
 #include <utility>
 
+#include "core/model/names.h"
+
 namespace forage::model {
+
+const Setting* TypeUse::setting(std::string_view parameter) const {
+    for (const auto* all : {&settings, &defaults})
+        if (const auto it = std::ranges::find(*all, parameter, &Setting::name); it != all->end()) return &*it;
+    return nullptr;
+}
+
+std::vector<std::string> equation_lines(const TypeDeclaration& type) {
+    std::vector<std::string> out;
+    for (const auto& piece : type.equations) {
+        std::istringstream text(piece.text);
+        for (std::string line; std::getline(text, line);)
+            if (const auto equation = trim(std::string_view(line).substr(0, line.find('#')));
+                !equation.empty())
+                out.emplace_back(equation);
+    }
+    return out;
+}
 
 GroupShape shape(const Topology& topology) {
     if (const auto* rect = std::get_if<RectTopology>(&topology)) {

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -66,8 +67,41 @@ struct TypeUse {
     std::optional<std::string> note;
     Location at;
     std::vector<Initial> initial = {};  ///< of neurons and synapses
+    /// What compute() finds for parameters of a declared type that are not set: the values of constants.
+    std::vector<Setting> defaults = {};
+    /// The setting that holds for a parameter; null when the type's own default does.
+    const Setting* setting(std::string_view parameter) const;
     friend bool operator==(const TypeUse&, const TypeUse&) = default;
 };
+
+/// A state of a type that a system declares.
+struct DeclaredState {
+    std::string name;
+    std::string value;  ///< before the first cycle: a number, or a formula in braces; empty: 0
+    std::string unit, doc;
+    Location at, name_at, value_at;
+    friend bool operator==(const DeclaredState&, const DeclaredState&) = default;
+};
+
+/// A text in a file.
+struct PlacedText {
+    std::string text;
+    Location at;
+    friend bool operator==(const PlacedText&, const PlacedText&) = default;
+};
+
+/// A neuron or synapse type that a system declares (core/equations).
+struct TypeDeclaration {
+    std::string name, doc;
+    std::vector<Constant> constants;    ///< its parameters, with their defaults
+    std::vector<DeclaredState> states;  ///< those that do not begin with 0, or have a unit or doc
+    std::vector<PlacedText> equations;
+    Location at, name_at;
+    friend bool operator==(const TypeDeclaration&, const TypeDeclaration&) = default;
+};
+
+/// The lines of a type's equations, without remarks.
+std::vector<std::string> equation_lines(const TypeDeclaration& type);
 
 struct SynapseUse : TypeUse {
     std::vector<CrossReference> feedback;
@@ -174,6 +208,8 @@ struct Connection {
     std::string id, name;
     std::string source, target;  ///< ids of groups
     InputKind kind = InputKind::excitatory;
+    std::string input;  ///< a further input of the target's type, in place of the kind
+    std::string state;  ///< of the source's type, which it transmits; empty: the output
     Pattern pattern;
     Arborization arborization;
     DistanceFunction attenuation, delay;
@@ -183,7 +219,7 @@ struct Connection {
     std::vector<std::string> comments;
     bool linked = false;  ///< whether it comes from the file of a linked process
     bool terse = false;  ///< whether its file leaves out elements; the writer leaves out those with a default
-    Location at, source_at, target_at;
+    Location at, source_at, target_at, input_at, state_at;
     friend bool operator==(const Connection&, const Connection&) = default;
 };
 
@@ -198,6 +234,7 @@ struct System {
     std::vector<std::string> comments;
     std::vector<CanvasComment> canvas_comments;  ///< on the page of the processes
     std::vector<Constant> constants;
+    std::vector<TypeDeclaration> neuron_types, synapse_types;
     Formulas<System> formulas;
     Location at;
     friend bool operator==(const System&, const System&) = default;

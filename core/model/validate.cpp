@@ -142,9 +142,9 @@ class Validator {
     }
 
     /// A sentence without its full stop, for use within another sentence.
-    static std::string_view phrase(std::string_view sentence) {
+    static std::string in_brackets(std::string_view sentence) {
         if (sentence.ends_with('.')) sentence.remove_suffix(1);
-        return sentence;
+        return sentence.empty() ? "" : fmt::format(" ({})", sentence);
     }
 
     /// The parameter that is probably meant by `name`, which may be a label.
@@ -164,7 +164,7 @@ class Validator {
             if (!p) {
                 std::string hint = suggest(s.name, known);
                 if (const Parameter* meant = probably(s.name, parameters, known))
-                    hint = fmt::format("did you mean '{}' ({})?", meant->name, phrase(meant->doc));
+                    hint = fmt::format("did you mean '{}'{}?", meant->name, in_brackets(meant->doc));
                 else if (known.empty())
                     hint = fmt::format("{} has no parameters", use.type);
                 out_.unknown(s.name_at, fmt::format("{} has no parameter '{}'", use.type, s.name), hint);
@@ -181,7 +181,7 @@ class Validator {
                 out_.error(
                     s.value_at, fmt::format("{} = '{}' is not {}", p->name, s.value, describe(p->kind)),
                     !meant.empty() ? fmt::format("did you mean '{}'?", meant)
-                                   : fmt::format("{} ({}) is {}, {} by default", p->name, phrase(p->doc),
+                                   : fmt::format("{}{} is {}, {} by default", p->name, in_brackets(p->doc),
                                                  describe(p->kind), to_text(p->default_value)));
                 continue;
             }
@@ -211,7 +211,7 @@ class Validator {
         const double dt = seconds_per_cycle(system_);
         if (!(tau > 0))
             out_.error(s.value_at, fmt::format("{} = {} is not possible", p.name, s.in_force(p.kind)),
-                       fmt::format("{} ({}) is a time constant: more than 0 s", p.name, phrase(p.doc)));
+                       fmt::format("{}{} is a time constant: more than 0 s", p.name, in_brackets(p.doc)));
         else if (tau < 2 * dt)
             out_.warning(
                 s.value_at,
@@ -245,7 +245,7 @@ class Validator {
         Diagnostics found;
         try {
             const auto object = type.make();
-            apply(use.settings, type.parameters, object->parameters());
+            apply(use, type.parameters, object->parameters());
             if (type.set_dt) type.set_dt(object->parameters(), seconds_per_cycle(system_));
             type.check(object->parameters(), found);
         } catch (...) {
@@ -410,7 +410,7 @@ class Validator {
         found.lenient = out_.lenient;
         try {
             const auto module = type.make();
-            apply(use.settings, type.parameters, module->parameters());
+            apply(use, type.parameters, module->parameters());
             check_sizes(type, ports, module->parameters(), found);
             if (enabled && alone && !found.failed()) module->check(ports, found);
         } catch (const FileError& e) {
@@ -434,9 +434,23 @@ class Validator {
     void check_connection(const Connection& c) {
         const auto source = end(c, c.source, c.source_at, "source");
         const auto target = end(c, c.target, c.target_at, "target");
-        if (target) {
-            const NeuronType* type = registry_.neuron(target->neuron.type);
-            if (type && !type->reads[static_cast<std::size_t>(c.kind)])
+        const auto type_of = [&](const Group* g) { return g ? registry_.neuron(g->neuron.type) : nullptr; };
+        if (const NeuronType* type = type_of(source); type && !c.state.empty())
+            if (const auto known = names_of(type->states); std::ranges::find(known, c.state) == known.end())
+                out_.error(c.state_at, fmt::format("{} has no state '{}'", type->name, c.state),
+                           suggest(c.state, known));
+        if (const NeuronType* type = type_of(target); type && !c.input.empty()) {
+            if (std::ranges::find(type->inputs, c.input) == type->inputs.end())
+                out_.error(c.input_at, fmt::format("{} has no further input '{}'", type->name, c.input),
+                           type->inputs.empty() ? "a declared type has 'input NAME' among its equations"
+                                                : suggest(c.input, type->inputs));
+            if (c.kind != InputKind::excitatory)
+                out_.error(c.input_at,
+                           fmt::format("connection '{}' is {} and has the input '{}'", trim(c.name),
+                                       name_of(c.kind), c.input),
+                           "leave out the type; equations say how the input acts");
+        } else if (type) {
+            if (!type->reads[static_cast<std::size_t>(c.kind)])
                 out_.warning(c.at, fmt::format("connection '{}' has no effect: {} reads no {} input", c.name,
                                                type->name, name_of(c.kind)));
         }
@@ -529,6 +543,14 @@ class Validator {
         if (!neuron) return;
         const auto states = names_of(neuron->states);
         for (const auto& f : type.feedback) {
+            if (f.own) {
+                if (!f.state.empty() && std::ranges::find(states, f.state) == states.end())
+                    out_.error(use.at,
+                               fmt::format("{} reads '{}' of its target: {} has no state '{}'", use.type,
+                                           f.name, neuron->name, f.state),
+                               suggest(f.state, states));
+                continue;
+            }
             const auto it = std::ranges::find(use.feedback, f.name, &CrossReference::name);
             if (it == use.feedback.end() || it->target.empty()) {
                 if (f.required)
@@ -595,11 +617,12 @@ void validate(const System& system, const Registry& registry, Diagnostics& diagn
     Validator(system, registry, diagnostics, environment).run();
 }
 
-void apply(const std::vector<Setting>& settings, const std::vector<Parameter>& parameters, void* object) {
-    for (const auto& s : settings)
-        if (const Parameter* p = find_parameter(parameters, s.name))
-            if (const auto value = parse_parameter(p->kind, s.in_force(p->kind)))
-                p->set(object, p->is_path ? ParameterValue(resolved(s.value, s.value_at)) : *value);
+void apply(const TypeUse& use, const std::vector<Parameter>& parameters, void* object) {
+    for (const auto* settings : {&use.defaults, &use.settings})
+        for (const auto& s : *settings)
+            if (const Parameter* p = find_parameter(parameters, s.name))
+                if (const auto value = parse_parameter(p->kind, s.in_force(p->kind)))
+                    p->set(object, p->is_path ? ParameterValue(resolved(s.value, s.value_at)) : *value);
 }
 
 }  // namespace forage::model

@@ -16,6 +16,6 @@ void validate(const System& system, const Registry& registry, Diagnostics& diagn
 /// Sets the parameters of `object`, an instance of a type with `parameters`, from `settings`. Parameters
 /// without a setting keep their defaults, and values that validate() reports are ignored. A relative path
 /// starts at the folder of the file that contains it.
-void apply(const std::vector<Setting>& settings, const std::vector<Parameter>& parameters, void* object);
+void apply(const TypeUse& use, const std::vector<Parameter>& parameters, void* object);
 
 }  // namespace forage::model

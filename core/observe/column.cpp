@@ -118,6 +118,11 @@ std::optional<ColumnRef> find_column(const engine::Layout& s, const expression::
         known.emplace_back(inputs[k]);
         if (inputs[k] == state) return ColumnRef{group, -1, static_cast<InputKind>(k), prefix + known.back()};
     }
+    for (std::size_t k = 0; k < type.inputs.size(); ++k) {
+        known.push_back(type.inputs[k]);
+        if (known.back() == state)
+            return ColumnRef{group, -1, static_cast<InputKind>(input_kinds + k), prefix + known.back()};
+    }
     context.error(piece.at + static_cast<std::size_t>(state.data() - text.data()),
                   fmt::format("{} has no state '{}'", type.name, state), suggest(state, known));
     return std::nullopt;

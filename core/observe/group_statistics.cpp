@@ -24,7 +24,8 @@ void GroupStatistics::after_cycle(RunView& run) {
         auto& group = groups_[static_cast<std::size_t>(g)];
         for (std::size_t s = 0; s < group.states.size(); ++s)
             group.states[s].add(run.simulation.state(g, static_cast<int>(s)));
-        for (std::size_t k = 0; k < input_kinds; ++k)
+        for (std::size_t k = 0;
+             k < run.simulation.layout().groups[static_cast<std::size_t>(g)].type.input_count(); ++k)
             group.inputs[k].add(run.simulation.input(g, static_cast<InputKind>(k)));
     }
 }

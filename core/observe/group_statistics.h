@@ -29,7 +29,7 @@ class GroupStatistics final : public Observer {
   public:
     struct Group {
         std::vector<Spread> states;              ///< by state of the type
-        std::array<Spread, input_kinds> inputs;  ///< by InputKind, with the gains of the type
+        std::array<Spread, max_inputs> inputs;  ///< by InputKind, with the gains of the type
     };
     explicit GroupStatistics(const engine::Layout& layout);
 

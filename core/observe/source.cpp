@@ -170,10 +170,12 @@ std::optional<Part> find_part(const engine::Layout& layout, const ColumnRef& col
     const auto& [path, id, shape, type] = layout.groups[column.group];
     static constexpr std::string_view inputs[] = {"Excitation", "Inhibition", "Modulation"};
 
+    const auto kind = static_cast<std::size_t>(column.kind);
     Recorded whole;
     whole.name = column.name;
-    whole.label = column.state >= 0 ? type.states[static_cast<std::size_t>(column.state)].label
-                                    : std::string(inputs[static_cast<std::size_t>(column.kind)]);
+    whole.label = column.state >= 0    ? type.states[static_cast<std::size_t>(column.state)].label
+                  : kind < input_kinds ? std::string(inputs[kind])
+                                       : type.inputs[kind - input_kinds];
     whole.group_id = id;
     whole.group = path.substr(path.find('/') + 1);
     if (const std::string suffix = "#" + whole.group_id; whole.group.ends_with(suffix))

@@ -50,7 +50,7 @@ Trial try_cells(const NeuronType& type, const Given& given) {
         states.push_back({buffers.emplace_back(cells * s.history).data(), s.history});
         std::fill_n(states.back().ring, cells * s.history, s.initial);
     }
-    std::array<double*, input_kinds> columns{};
+    std::array<double*, max_inputs> columns{};
     for (auto& column : columns) column = buffers.emplace_back(cells).data();
     double* scratch = buffers.emplace_back(cells * NeuronColumns::scratch_columns).data();
     const RandomStream random(1, "contract");

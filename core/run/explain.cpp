@@ -113,7 +113,7 @@ class Explainer {
         for (const auto& p : type.parameters)
             if (p.name == parameter_name) {
                 const auto cell = type.make();
-                model::apply(uses_.at(layout_.groups[g].id)->settings, type.parameters, cell->parameters());
+                model::apply(*uses_.at(layout_.groups[g].id), type.parameters, cell->parameters());
                 const ParameterValue value = p.get(cell->parameters());
                 if (const auto* number = std::get_if<double>(&value)) return *number;
                 if (const auto* on = std::get_if<bool>(&value)) return *on;
@@ -316,8 +316,10 @@ std::string activity_table(const Layout& layout, const observe::GroupStatistics&
     for (std::size_t g = 0; g < layout.groups.size(); ++g) {
         const auto& seen = statistics.groups()[g];
         row(layout.groups[g].path, seen.states[static_cast<std::size_t>(layout.groups[g].type.output())]);
-        for (std::size_t k = 0; k < input_kinds; ++k)
-            if (!seen.inputs[k].silent()) row(std::string("  ") + kind_names[k], seen.inputs[k]);
+        const auto& type = layout.groups[g].type;
+        for (std::size_t k = 0; k < type.input_count(); ++k)
+            if (!seen.inputs[k].silent())
+                row("  " + (k < input_kinds ? kind_names[k] : type.inputs[k - input_kinds]), seen.inputs[k]);
     }
     return out;
 }

@@ -29,7 +29,7 @@ std::vector<std::string> module_files(const model::System& system, const Registr
         const ModuleType* type = p.module ? registry.module(p.module->type) : nullptr;
         if (!type) continue;
         const auto module = type->make();
-        model::apply(p.module->settings, type->parameters, module->parameters());
+        model::apply(*p.module, type->parameters, module->parameters());
         for (const auto& parameter : type->parameters)
             if (parameter.is_path) out.insert(std::get<std::string>(parameter.get(module->parameters())));
     }

@@ -45,12 +45,16 @@ struct NeuronType {
     std::string name, label, doc;
     std::vector<Parameter> parameters;
     std::vector<StateInfo> states;
-    std::array<bool, input_kinds> reads{};  ///< which kinds of input the type uses; the others stay 0
+    std::array<bool, max_inputs> reads{};  ///< which kinds of input the type uses; the others stay 0
+    std::vector<std::string> inputs;       ///< further inputs, whose kinds follow the three
+    bool declared = false;     ///< by the system's own file
     bool elementwise = false;  ///< whether cells do not see each other; threads may share such an update
     std::function<std::unique_ptr<NeuronInstance>()> make;
     std::function<void(const void*, Diagnostics&)> check;  ///< checks an object's parameters; may be empty
     std::function<void(void*, double)> set_dt;  ///< tells an object the seconds per cycle; may be empty
 
+    /// The number of all inputs.
+    std::size_t input_count() const { return input_kinds + inputs.size(); }
     int output() const {  ///< index of the output state
         for (int i = 0; i < static_cast<int>(states.size()); ++i)
             if (states[static_cast<std::size_t>(i)].output) return i;

@@ -38,9 +38,9 @@ class NeuronColumns {
 
     /// Covers the cells from `first`, a multiple of RandomStream::grain, to `first` + `size` - 1 of rows that
     /// are `stride` apart. `inputs` and `states` point to cell 0.
-    NeuronColumns(Index size, Index stride, std::uint64_t cycle, std::array<double*, input_kinds> inputs,
+    NeuronColumns(Index size, Index stride, std::uint64_t cycle, std::array<double*, max_inputs> inputs,
                   std::span<const State> states, const RandomStream& random, double* scratch,
-                  std::array<bool, input_kinds> silent = {}, Index first = 0, Undeclared undeclared = {1, 0})
+                  std::array<bool, max_inputs> silent = {}, Index first = 0, Undeclared undeclared = {1, 0})
         : size_(size),
           stride_(stride),
           first_(first),
@@ -59,6 +59,7 @@ class NeuronColumns {
     Column excitation() const { return input(InputKind::excitatory); }
     Column inhibition() const { return input(InputKind::inhibitory); }
     Column modulation() const { return input(InputKind::modulatory); }
+    Column input(InputKind kind) const { return {inputs_[static_cast<std::size_t>(kind)] + first_, size_}; }
 
     /// Whether nothing ever delivers this kind of input. It is 0 in all cells then, and a type need neither
     /// scale nor read it.
@@ -110,7 +111,6 @@ class NeuronColumns {
     bool time_invariant() const { return time_invariant_; }
 
   private:
-    Column input(InputKind kind) const { return {inputs_[static_cast<std::size_t>(kind)] + first_, size_}; }
     double* row(int i, int ago) const {
         const auto index = static_cast<std::size_t>(i);  // a negative index becomes very large
         if (index >= states_.size()) detail::not_declared("state", i, states_.size());
@@ -123,11 +123,11 @@ class NeuronColumns {
 
     Index size_, stride_, first_;
     std::uint64_t cycle_;
-    std::array<double*, input_kinds> inputs_;
+    std::array<double*, max_inputs> inputs_;
     std::span<const State> states_;
     RandomStream random_;
     double* scratch_;
-    std::array<bool, input_kinds> silent_;
+    std::array<bool, max_inputs> silent_;
     Undeclared undeclared_;
     mutable bool time_invariant_ = true;
 };

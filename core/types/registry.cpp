@@ -79,6 +79,11 @@ void Registry::add(ModuleType type) {
     insert(modules_, std::move(type), "module");
 }
 
+void Registry::remove_declared() {
+    std::erase_if(neurons_, [](const auto& t) { return t.second.declared; });
+    std::erase_if(synapses_, [](const auto& t) { return t.second.declared; });
+}
+
 const NeuronType* Registry::neuron(std::string_view name) const { return find(neurons_, name); }
 const SynapseType* Registry::synapse(std::string_view name) const { return find(synapses_, name); }
 const ModuleType* Registry::module(std::string_view name) const { return find(modules_, name); }

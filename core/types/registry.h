@@ -21,6 +21,9 @@ class Registry {
     void add(SynapseType type);
     void add(ModuleType type);
 
+    /// Removes the types that a system has declared.
+    void remove_declared();
+
     /// The type with this name; null when there is none.
     const NeuronType* neuron(std::string_view name) const;
     const SynapseType* synapse(std::string_view name) const;

@@ -46,6 +46,11 @@ struct FeedbackInfo {
     std::string name;  ///< as in `<XRefHolder name="Freedback"><XRef name="..">`
     std::string label;
     bool required = true;
+    /// Whether the type itself says which state it reads, instead of each connection: `state`, or the output
+    /// when that is empty; `ago`: 1 for its value in the last cycle.
+    bool own = false;
+    std::string state = {};
+    int ago = 0;
 };
 
 struct SynapseType {
@@ -53,6 +58,7 @@ struct SynapseType {
     std::vector<Parameter> parameters;
     std::vector<SynapseStateInfo> states;
     std::vector<FeedbackInfo> feedback;
+    bool declared = false;  ///< by the system's own file
     bool has_gain = false;
     bool event_driven = false;  ///< see SynapseSpec
     std::function<std::unique_ptr<SynapseInstance>()> make;

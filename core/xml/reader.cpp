@@ -55,6 +55,8 @@ class Reader {
         const Element& e = document_.root();
         auto s = located<model::System>(e);
         s.constants = constants(e);
+        s.neuron_types = declarations(e, "NeuronType");
+        s.synapse_types = declarations(e, "SynapseType");
         s.note = note(e);
         s.comments = comments_of(e);
         s.canvas_comments = canvas_parts<model::CanvasComment>(e);
@@ -109,6 +111,18 @@ class Reader {
     static std::vector<model::Constant> constants(const Element& e) {
         std::vector<model::Constant> out;
         for (const Element& c : e.children("Constant")) out.push_back(located<model::Constant>(c));
+        return out;
+    }
+    static std::vector<model::TypeDeclaration> declarations(const Element& e, std::string_view kind) {
+        std::vector<model::TypeDeclaration> out;
+        for (const Element& d : e.children(kind)) {
+            auto& type = out.emplace_back(located<model::TypeDeclaration>(d));
+            type.constants = constants(d);
+            for (const Element& s : d.children("State"))
+                type.states.push_back(located<model::DeclaredState>(s));
+            for (const Value& text : d.child("Equations").texts())
+                type.equations.push_back({text.text(), text.where()});
+        }
         return out;
     }
     static std::optional<std::string> note(const Element& e) {

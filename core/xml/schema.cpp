@@ -162,7 +162,19 @@ class Schema : Printer {
             close();
             close();
         }
+        if constexpr (!std::is_same_v<typename Map::mapped_type, ModuleType>) of_declared_types(types);
         close();
+    }
+    /// Types that the file itself declares: any other name.
+    template <class Map>
+    void of_declared_types(const Map& shipped) {
+        open("group"), attribute("name"), open("data", {{"type", "string"}}), open("except");
+        choice_of(names(shipped));
+        close(), close(), close();
+        open("interleave");
+        open("zeroOrMore"), reference("Parameter"), close();
+        open("optional"), reference("Note"), close();
+        close(), close();
     }
 
     void parameters(const std::vector<Parameter>& all) {

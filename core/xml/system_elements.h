@@ -59,10 +59,15 @@ inline auto system_elements() {
             {&Arborization::probability,
              number("initialization_probability",
                     "probability that a point of the arborization becomes a synapse", 0, 1)}}};
+    const auto declaration = element<TypeDeclaration>(
+        "NeuronType", "a neuron type of this file", "Constant State Equations!",
+        {{&TypeDeclaration::name, required(text("name", "what groups or connections call it")),
+          &TypeDeclaration::name_at},
+         {&TypeDeclaration::doc, omit_default(text("doc", "what it is, in a sentence"))}});
     return std::tuple{
         element<System>(
             "System", "a brain model: processes and the connections between their groups",
-            "Constant Note? Process Connection",
+            "Constant NeuronType SynapseType Note? Process Connection",
             {{&System::id, id()},
              {&System::name, name()},
              {&System::author, text("author", "the author")},
@@ -100,6 +105,18 @@ inline auto system_elements() {
              {&Constant::maximum, omit_default(number("maximum", "largest value"))},
              {&Constant::unit, omit_default(text("unit", "of the value; without effect"))},
              {&Constant::doc, omit_default(text("doc", "what it means"))}}),
+        declaration,
+        ElementRule{"SynapseType", "a synapse type of this file", declaration.content, declaration.rules()},
+        element<DeclaredState>(
+            "State", "a state of a type, which is recorded under its name", "",
+            {{&DeclaredState::name, required(text("name", "letters, digits and _")), &DeclaredState::name_at},
+             {&DeclaredState::value,
+              omit_default(
+                  text("value", "before the first cycle: a number, or a formula in braces; empty: 0")),
+              &DeclaredState::value_at},
+             {&DeclaredState::unit, omit_default(text("unit", "of the value; without effect"))},
+             {&DeclaredState::doc, omit_default(text("doc", "what it means"))}}),
+        ElementRule{"Equations", "what a type computes in a cycle", ":text"},
         element<ModuleUse>("Module", "what ties the process to the outside", "Parameter XRefHolder Note?",
                            {{&ModuleUse::type, name_of(Names::module, "the module type"), &ModuleUse::at}}),
         element<Setting>(
@@ -165,7 +182,14 @@ inline auto system_elements() {
              {&Connection::kind,
               choice("type", "how it acts on its target", {"excitatory", "inhibitory", "modulatory"})},
              {&Connection::source, group("source"), &Connection::source_at},
-             {&Connection::target, group("target"), &Connection::target_at}}),
+             {&Connection::target, group("target"), &Connection::target_at},
+             {&Connection::input,
+              omit_default(
+                  text("input", "in place of a type: a further input that the target's type declares")),
+              &Connection::input_at},
+             {&Connection::state,
+              omit_default(text("state", "of the source, which it transmits; empty: the output")),
+              &Connection::state_at}}),
         element<Weights>(
             "Weights", "in place of a pattern: the weight of each synapse, in a file or as rows of numbers",
             ":text",

@@ -17,6 +17,8 @@ class Writer : Printer {
         comments(s.comments);
         begin(s);
         for (const auto& c : s.constants) leaf_of(c);
+        for (const auto& type : s.neuron_types) declaration("NeuronType", type);
+        for (const auto& type : s.synapse_types) declaration("SynapseType", type);
         note(s.note);
         for (const auto& p : s.processes) process(p.linked() ? p.placeholder.front() : p);
         for (const auto& c : s.connections)
@@ -64,6 +66,17 @@ class Writer : Printer {
     }
     void icon(const std::optional<model::Icon>& i) {
         if (i) leaf_of(*i);
+    }
+
+    void declaration(const char* kind, const model::TypeDeclaration& type) {
+        open(kind), attributes(type);
+        for (const auto& c : type.constants) leaf_of(c);
+        for (const auto& s : type.states) leaf_of(s);
+        open("Equations");
+        std::string all;
+        for (const auto& piece : type.equations) all += (all.empty() ? "" : "\n") + piece.text;
+        if (!all.empty()) text(all);
+        close(), close();
     }
 
     void process(const model::Process& p) {

@@ -22,6 +22,7 @@ TESTS = {
     "core/model": "unit_model",
     "core/connectivity": "unit_connectivity",
     "core/formula": "unit_formula",
+    "core/equations": "unit_equations",
     "core/xml": "unit_xml",
     "core/engine": "unit_engine",
     "core/plugin": "plugins",

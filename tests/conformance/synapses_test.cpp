@@ -34,7 +34,7 @@ class Potentials {
             one.source = c.source;
             const SynapseType& type = *registry.synapse(c.synapse->type);
             const auto synapse = type.make();
-            model::apply(c.synapse->settings, type.parameters, synapse->parameters());
+            model::apply(*c.synapse, type.parameters, synapse->parameters());
             one.gain = synapse->gain();
         }
     }

@@ -12,6 +12,7 @@
 
 #include "core/connectivity/connect.h"
 #include "core/model/lookup.h"
+#include "core/equations/declared_types.h"
 #include "core/model/validate.h"
 #include "core/xml/reader.h"
 #include "neurons/linear_threshold.h"
@@ -67,7 +68,11 @@ std::string answer(const fs::path& path, bool lenient = false) {
     Diagnostics diagnostics;
     diagnostics.lenient = lenient;
     const auto system = xml::read_system(path.string(), diagnostics);
-    if (system) model::validate(*system, types(), diagnostics);
+    if (system) {
+        Registry all = types();
+        equations::add_types(*system, all, diagnostics);
+        model::validate(*system, all, diagnostics);
+    }
     if (system && !diagnostics.failed()) {
         const model::GroupIndex groups(*system);
         for (const auto& c : system->connections)

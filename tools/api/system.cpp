@@ -4,6 +4,7 @@
 #include <forage/system.h>
 
 #include "core/base/output_files.h"
+#include "core/equations/declared_types.h"
 #include "core/model/arrays.h"
 #include "core/model/lookup.h"
 #include "core/xml/reader.h"
@@ -20,13 +21,34 @@ SystemFile make_file(std::optional<model::System> model, std::string path, std::
                      Diagnostics diagnostics, Diagnostics* warnings) {
     throw_errors(diagnostics);
     SystemFile out{std::move(*model), std::move(path), std::move(plugins), nullptr};
-    out.types = std::make_shared<Registry>(known_types(plugins_to_read(out.plugins, out.path, diagnostics)));
+    Registry types = known_types(plugins_to_read(out.plugins, out.path, diagnostics));
+    equations::add_types(out.model, types, diagnostics);
+    out.types = std::make_shared<Registry>(std::move(types));
     throw_errors(diagnostics);
     if (warnings) *warnings = std::move(diagnostics);
     return out;
 }
 
+void declare(SystemFile& file, std::vector<model::TypeDeclaration> model::System::*types,
+             model::TypeDeclaration type) {
+    model::System model = file.model;
+    (model.*types).push_back(std::move(type));
+    Registry registry = *file.types;
+    Diagnostics diagnostics;
+    equations::add_types(model, registry, diagnostics);
+    throw_errors(diagnostics);
+    file.model = std::move(model), file.types = std::make_shared<Registry>(std::move(registry));
+}
+
 }  // namespace
+
+void declare_neuron_type(SystemFile& file, model::TypeDeclaration type) {
+    declare(file, &model::System::neuron_types, std::move(type));
+}
+
+void declare_synapse_type(SystemFile& file, model::TypeDeclaration type) {
+    declare(file, &model::System::synapse_types, std::move(type));
+}
 
 SystemFile new_system(const std::string& name, std::vector<std::string> plugins) {
     model::System model;
@@ -56,7 +78,7 @@ void save(SystemFile& file, const std::string& path, bool original) {
     model::move_files(moved, file.path, path, *file.types);
     if (original) {
         Diagnostics diagnostics;
-        model::refuse_arrays(moved, diagnostics);
+        model::refuse_extensions(moved, diagnostics);
         throw_errors(diagnostics);
         model::make_original(moved);
     }

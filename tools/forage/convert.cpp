@@ -101,7 +101,7 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
                 diagnostics.error({std::make_shared<SourceFile>(SourceFile{path, {}})}, e.what());
             }
     if (o.embed) model::embed_links(*system);
-    if (o.original) model::refuse_arrays(*system, diagnostics), model::make_original(*system);
+    if (o.original) model::refuse_extensions(*system, diagnostics), model::make_original(*system);
     if (!to_process && !o.extract.empty()) {
         diagnostics.error({},
                           fmt::format("--extract writes a process file, '{}' would be a system", o.output),

@@ -33,7 +33,7 @@ std::vector<double> strengths(const model::Connection& c, const connectivity::Sy
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = synapses.reference - synapses.attenuation[i];
     if (type.has_gain) {
         const auto instance = type.make();
-        model::apply(model::synapse_of(c).settings, type.parameters, instance->parameters());
+        model::apply(model::synapse_of(c), type.parameters, instance->parameters());
         for (double& v : out) v *= instance->gain();
         for (std::size_t i = 0; i < synapses.weight.size(); ++i) out[i] *= synapses.weight[i];
         return out;

@@ -18,12 +18,14 @@ namespace forage::engine {
 struct Ring {
     const double* rows;
     std::int64_t depth;
-    Index stride;  ///< from row to row
+    Index stride;   ///< from row to row
+    int older = 0;  ///< cycles that are added to each delay
 
-    /// The row of cycle `cycle` - `delay`; `delay` is less than the depth.
+    /// The row of cycle `cycle` - `delay` - `older`; together they are less than the depth.
     const double* ago(std::uint64_t cycle, int delay) const {
         if (depth == 1) return rows;  // saves the division
-        const auto row = static_cast<std::int64_t>(cycle % static_cast<std::uint64_t>(depth)) - delay;
+        const auto row =
+            static_cast<std::int64_t>(cycle % static_cast<std::uint64_t>(depth)) - delay - older;
         return rows + (row < 0 ? row + depth : row) * stride;
     }
 };

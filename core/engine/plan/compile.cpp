@@ -93,7 +93,7 @@ class Compiler {
     auto make(const Type& type, const model::TypeUse& use) {
         try {
             auto out = type.make();
-            model::apply(use.settings, type.parameters, out->parameters());
+            model::apply(use, type.parameters, out->parameters());
             if constexpr (requires { type.set_dt; })
                 if (type.set_dt) type.set_dt(out->parameters(), layout_.seconds_per_cycle);
             return out;
@@ -118,7 +118,7 @@ class Compiler {
             plan.keeps_input = demand_.reads_input(i);
             plan.overwritten = demand_.overwrites(i);
             plan.random = RandomStream(options_.seed, about.id);
-            double rows = 2 * input_kinds;
+            double rows = 2 * static_cast<double>(about.type.input_count());
             for (const auto& s : about.type.states) {
                 plan.states.push_back({0, s.history});
                 rows += static_cast<double>(s.history);
@@ -170,6 +170,9 @@ class Compiler {
             const auto* c = order_.connections[i];
             auto& plan = plan_->connections.emplace_back();
             plan.source = about.source, plan.target = about.target, plan.kind = about.kind;
+            plan.state = about.state;
+            auto& source = plan_->groups[plan.source];
+            source.shows_states |= plan.state != source.output;
             plan.effective = about.effective;
             plan.pruned = pruned_.connections[i];
             plan.reads_states = demand_.reads_synapses(i);
@@ -262,14 +265,20 @@ class Compiler {
         plan.kernel = std::move(kernel);
     }
 
-    /// Makes the source keep its activity for a connection's delay.
+    /// Makes the source keep what a connection transmits for the connection's delay.
     void lengthen(const model::Connection& c, const ConnectionPlan& plan) {
         auto& source = plan_->groups[plan.source];
-        if (plan.longest_delay <= source.history) return;
-        budget_.add(
-            plan.longest_delay - source.history, source.cells, c.at,
-            fmt::format("connection '{}': delay {} x {} cells", c.name, plan.longest_delay, source.cells));
-        source.history = plan.longest_delay;
+        if (plan.state == source.output)
+            return lengthen(source.history, plan.longest_delay, source.cells, c, plan);
+        lengthen(source.states[plan.state].depth, plan.longest_delay + 1, source.cells, c, plan);
+    }
+    template <class Depth>
+    void lengthen(Depth& depth, int needed, Index cells, const model::Connection& c,
+                  const ConnectionPlan& plan) {
+        if (needed <= depth) return;
+        budget_.add(static_cast<double>(needed - depth), cells, c.at,
+                    fmt::format("connection '{}': delay {} x {} cells", c.name, plan.longest_delay, cells));
+        depth = needed;
     }
 
     void add_synapse_states(const model::Connection& c, const SynapseType& type, const ConnectionPlan& plan) {
@@ -290,16 +299,13 @@ class Compiler {
         std::vector<int> out;
         for (const auto& f : type.feedback) {
             int state = -1;
+            const int needed = longest + f.ago + 1;
+            for (int s = 0; s < std::ssize(states); ++s)
+                if (f.own && (f.state.empty() ? states[s].output : f.state == states[s].name)) state = s;
             for (const auto& r : c.synapse->feedback)
                 for (int s = 0; s < std::ssize(states); ++s)
-                    if (r.name == f.name && r.target == states[s].name) state = s;
-            if (state >= 0 && target.states[state].depth <= longest) {
-                auto& depth = target.states[state].depth;
-                budget_.add(
-                    static_cast<double>(longest + 1 - depth), target.cells, c.at,
-                    fmt::format("connection '{}': delay {} x {} cells", c.name, longest, target.cells));
-                depth = longest + 1;
-            }
+                    if (!f.own && r.name == f.name && r.target == states[s].name) state = s;
+            if (state >= 0) lengthen(target.states[state].depth, needed, target.cells, c, plan);
             out.push_back(state);
         }
         return out;
@@ -365,12 +371,13 @@ class Compiler {
             const auto before = rows.size();
             for (auto& s : g.states) s.first = rows.reserve(g.cells, s.depth);
             g.numbers = static_cast<Index>(rows.size() - before);
-            for (std::size_t k = 0; k < input_kinds; ++k)
+            for (std::size_t k = 0; k < max_inputs; ++k)
                 if (g.fed[k]) g.inputs[k] = {rows.reserve(g.cells), 0};
         }
-        for (auto& g : plan_->groups) {
+        for (std::size_t i = 0; i < plan_->groups.size(); ++i) {
+            auto& g = plan_->groups[i];
             if (g.pruned) continue;
-            for (std::size_t k = 0; k < input_kinds; ++k) {
+            for (std::size_t k = 0; k < layout_.groups[i].type.input_count(); ++k) {
                 if (!g.fed[k]) g.inputs[k][0] = rows.reserve(g.cells);
                 g.inputs[k][1] = g.keeps_input ? rows.reserve(g.cells) : g.inputs[k][0];
             }

@@ -73,10 +73,17 @@ std::optional<Layout> make_layout(const model::System& system, const Registry& r
         out.modules.push_back(std::move(m));
     }
     for (const auto* c : order.connections) {
-        const int target = number(c->target);
-        out.connections.push_back({c->id, c->name, *registry.synapse(model::synapse_of(*c).type), c->kind,
-                                   number(c->source), target,
-                                   out.groups[target].type.reads[static_cast<std::size_t>(c->kind)]});
+        const int source = number(c->source), target = number(c->target);
+        const NeuronType &from = out.groups[source].type, &to = out.groups[target].type;
+        std::size_t kind = static_cast<std::size_t>(c->kind);
+        if (!c->input.empty())
+            kind = input_kinds +
+                   static_cast<std::size_t>(std::ranges::find(to.inputs, c->input) - to.inputs.begin());
+        int state = from.output();
+        for (int s = 0; s < std::ssize(from.states); ++s)
+            if (from.states[s].name == c->state) state = s;
+        out.connections.push_back({c->id, c->name, *registry.synapse(model::synapse_of(*c).type),
+                                   static_cast<InputKind>(kind), source, target, state, to.reads[kind]});
     }
     return out;
 }

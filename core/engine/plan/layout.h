@@ -30,8 +30,9 @@ struct Layout {
     struct Connection {
         std::string id, name;
         SynapseType type;
-        InputKind kind = InputKind::excitatory;
-        int source = 0, target = 0;  ///< groups
+        InputKind kind = InputKind::excitatory;  ///< beyond the three: a further input of the target's type
+        int source = 0, target = 0;              ///< groups
+        int state = 0;                           ///< of the source, which it transmits
         /// Whether the target's type reads this kind of input.
         bool effective = true;
     };

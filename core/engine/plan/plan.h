@@ -14,15 +14,16 @@
 namespace forage::engine {
 
 struct GroupPlan {
-    Index cells = 0, stride = 0;          ///< stride: from row to row
-    bool pruned = false;                  ///< nothing that is demanded depends on it
-    bool keeps_input = true;              ///< else what is delivered takes the place of what was read
-    bool overwritten = false;             ///< from outside
-    int output = 0;                       ///< the state that is the activity
-    int history = 0;                      ///< longest delay of the connections that read its activity
-    std::array<bool, input_kinds> fed{};  ///< the type reads this kind of input, and something delivers it
-    std::vector<int> incoming;            ///< connections that end here, in order
-    double delivery_cost = 0;             ///< of all of them, ns
+    Index cells = 0, stride = 0;         ///< stride: from row to row
+    bool pruned = false;                 ///< nothing that is demanded depends on it
+    bool keeps_input = true;             ///< else what is delivered takes the place of what was read
+    bool overwritten = false;            ///< from outside
+    int output = 0;                      ///< the state that is the activity
+    bool shows_states = false;           ///< a connection transmits another state
+    int history = 0;                     ///< longest delay of the connections that read its activity
+    std::array<bool, max_inputs> fed{};  ///< the type reads this kind of input, and something delivers it
+    std::vector<int> incoming;           ///< connections that end here, in order
+    double delivery_cost = 0;            ///< of all of them, ns
     std::vector<std::pair<int, int>> module_inputs;  ///< modules and ports that write to it, in order
     RandomStream random;
 
@@ -32,8 +33,8 @@ struct GroupPlan {
         std::int64_t depth;  ///< rows: cycles that are kept; row t % depth is that of cycle t
     };
     std::vector<StateRing> states;
-    Index numbers = 0;                                              ///< of all rows of its states
-    std::array<std::array<Rows::Offset, 2>, input_kinds> inputs{};  ///< two rows, the same one if not kept
+    Index numbers = 0;                                             ///< of all rows of its states
+    std::array<std::array<Rows::Offset, 2>, max_inputs> inputs{};  ///< two rows, the same one if not kept
     Rows::Offset past = 0;  ///< ring of history + 1 rows of activity; none when history is 0
 };
 
@@ -47,6 +48,7 @@ struct ConnectionPlan {
     std::unique_ptr<const Kernel> kernel;    ///< null when it is pruned
     const PlasticKernel* plastic = nullptr;  ///< the kernel, when its synapses have an update()
     int source = 0, target = 0;
+    int state = 0;  ///< of the source, which it transmits
     int longest_delay = 0;
     InputKind kind = InputKind::excitatory;
     bool effective = true;      ///< the target's type reads this kind of input

@@ -278,10 +278,10 @@ json describe_parameters(Run& run, std::string_view item) {
 json describe_settings(const model::TypeUse& use, const model::TypeUse* saved,
                        const std::vector<Parameter>& parameters, const std::string& owner) {
     const auto value = [](const model::TypeUse& from, const Parameter& p) {
-        const auto it = std::ranges::find(from.settings, p.name, &model::Setting::name);
-        if (it == from.settings.end()) return json_of(p.default_value);
-        const auto parsed = parse_parameter(p.kind, it->in_force(p.kind));
-        return parsed ? json_of(*parsed) : json(it->value);
+        const auto* s = from.setting(p.name);
+        if (!s) return json_of(p.default_value);
+        const auto parsed = parse_parameter(p.kind, s->in_force(p.kind));
+        return parsed ? json_of(*parsed) : json(s->value);
     };
     json out = json::array();
     for (const Parameter& p : parameters) {

@@ -10,6 +10,7 @@
 #include "core/base/separated.h"
 #include "core/base/text_difference.h"
 #include "core/base/text_file.h"
+#include "core/equations/declared_types.h"
 #include "core/model/edit.h"
 #include "core/model/merge.h"
 #include "core/model/validate.h"
@@ -20,6 +21,12 @@
 
 namespace forage {
 namespace {
+
+/// Checks a system, with the types that it declares itself.
+void check(const model::System& system, Registry types, Diagnostics& out, Environment* environment) {
+    equations::add_types(system, types, out);
+    model::validate(system, types, out, environment);
+}
 
 namespace fs = std::filesystem;
 
@@ -86,7 +93,7 @@ void Document::read(std::string text, Accept accept) {
 
 std::vector<Document::Problem> Document::problems(const Registry& registry, Environment* environment) const {
     Diagnostics all = diagnostics_;
-    if (readable_) model::validate(system_, registry, all, environment);
+    if (readable_) check(system_, registry, all, environment);
     return located(all);
 }
 
@@ -157,7 +164,7 @@ Diagnostics Document::check_item_text(std::string_view id, const std::string& te
     Diagnostics all;
     all.lenient = lenient_;
     const auto system = xml::parse_system(shown(path_), before + text + text_.substr(place.end), all);
-    if (system) model::validate(*system, registry, all, environment);
+    if (system) check(*system, registry, all, environment);
     std::set<std::string> known;
     for (const auto& p : problems(registry, environment)) known.insert(p.diagnostic.message);
 

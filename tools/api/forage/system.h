@@ -40,6 +40,11 @@ SystemFile read_system(const std::string& path, std::vector<std::string> plugins
 SystemFile parse_system(const std::string& text, const std::string& path,
                         std::vector<std::string> plugins = {}, Diagnostics* warnings = nullptr);
 
+/// Declares a neuron or synapse type in the system (docs/reference/system-file.md#types). Throws InputError for
+/// what is wrong with it, and then changes nothing.
+void declare_neuron_type(SystemFile& file, model::TypeDeclaration type);
+void declare_synapse_type(SystemFile& file, model::TypeDeclaration type);
+
 /// Carries out an operation of an editor or a list of them, JSON as in the command `edit` of the studio
 /// (docs/design/studio-protocol.md): all of them, or none when one is refused. Returns a JSON list of what
 /// each has made: an id, a list of ids, or null. Throws InputError.

@@ -12,6 +12,7 @@
 #include "core/base/named_file.h"
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
+#include "core/equations/declared_types.h"
 #include "core/model/build.h"
 #include "core/model/constants.h"
 #include "core/model/edit.h"
@@ -341,10 +342,13 @@ std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Di
     for (const auto& p : sources.plugins)
         if (p.loaded) out.plugins.push_back(p.path);
     if (sources.system && !sources.plugins_failed) {
+        equations::add_types(out.system, out.registry, diagnostics);
         bind_robots(input.robots, out.registry, out.system, diagnostics);
         warn_of_repeated(input.settings, diagnostics);
         for (const auto& setting : input.settings)
             model::set(out.system, out.registry, setting.text, diagnostics, setting.at);
+        Diagnostics reported;  // states may begin with constants that have changed
+        if (!input.settings.empty()) equations::add_types(out.system, out.registry, reported);
         check_drivers(out.registry, out.system, out.world != nullptr, diagnostics);
         if (diagnostics.failed())
             model::validate(out.system, out.registry, diagnostics,

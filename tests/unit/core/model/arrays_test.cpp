@@ -58,7 +58,7 @@ TEST_CASE("formulas in initial values are written out as numbers") {
 
 TEST_CASE("everything that plain iqr cannot say is listed") {
     Diagnostics diagnostics;
-    refuse_arrays(two_groups(), diagnostics);
+    refuse_extensions(two_groups(), diagnostics);
     CHECK(diagnostics.errors() == 4);
 }
 

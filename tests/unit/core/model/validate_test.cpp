@@ -245,12 +245,13 @@ TEST_CASE("Settings are applied to an object, and other parameters keep their de
     const NeuronType type = neuron_type<LinearThreshold>();
     const auto object = type.make();
     const auto system = system_of(good());
-    model::apply(system.processes[0].groups[0].neuron.settings, type.parameters, object->parameters());
+    model::apply(system.processes[0].groups[0].neuron, type.parameters, object->parameters());
     const auto& cell = *static_cast<const LinearThreshold*>(object->parameters());
     CHECK(cell.threshold == 0.5);
     CHECK(cell.membrane.clip);
     CHECK(cell.membrane.exc_gain == Membrane{}.exc_gain);
-    model::apply({{"threshold", "x", {}, {}}, {"nothing", "1", {}, {}}}, type.parameters,
-                 object->parameters());  // reported by validate()
+    model::TypeUse use;
+    use.settings = {{"threshold", "x", {}, {}}, {"nothing", "1", {}, {}}};
+    model::apply(use, type.parameters, object->parameters());  // reported by validate()
     CHECK(cell.threshold == 0.5);
 }

@@ -63,14 +63,14 @@ struct Group {
             rings.emplace_back(Eigen::ArrayXd::Constant(cells * depth, s.initial));
         for (auto& r : rings) states.push_back({r.data(), depth});
     }
-    NeuronColumns columns(std::uint64_t cycle, std::array<bool, input_kinds> silent, Index first,
+    NeuronColumns columns(std::uint64_t cycle, std::array<bool, max_inputs> silent, Index first,
                           Index count) {
         return {count,  cells,  cycle,          {inputs[0].data(), inputs[1].data(), inputs[2].data()},
                 states, random, scratch.data(), silent,
                 first};
     }
     /// Whether the update was time-invariant.
-    bool update(std::uint64_t cycle, std::array<bool, input_kinds> silent = {}, Index first = 0,
+    bool update(std::uint64_t cycle, std::array<bool, max_inputs> silent = {}, Index first = 0,
                 Index count = cells) {
         auto c = columns(cycle, silent, first, count);
         neuron->update(c);

@@ -1,0 +1,14 @@
+// Neuron and synapse types that a system declares by equations.
+#pragma once
+
+#include "core/base/diagnostic.h"
+#include "core/model/system.h"
+#include "core/types/registry.h"
+
+namespace forage::equations {
+
+/// Makes the types that a system declares known, in place of those that another one has declared. Reports
+/// mistakes in them; a type with mistakes is added, too, so that what uses it is checked.
+void add_types(const model::System& system, Registry& registry, Diagnostics& diagnostics);
+
+}  // namespace forage::equations

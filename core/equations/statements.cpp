@@ -1,0 +1,136 @@
+#include "core/equations/statements.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace forage::equations {
+namespace {
+
+constexpr std::string_view blanks = " \t\r\n";
+
+bool in_name(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+Piece trimmed(const Piece& p) {
+    const auto first = std::min(p.text.find_first_not_of(blanks), p.text.size());
+    return {p.text.substr(first, p.text.find_last_not_of(blanks) + 1 - first), p.at + first};
+}
+Piece part(const Piece& p, std::size_t from, std::size_t to = std::string_view::npos) {
+    return trimmed({p.text.substr(from, to - from), p.at + from});
+}
+
+/// The pieces between characters that `divides` accepts outside of parentheses.
+template <class Divides>
+std::vector<Piece> divided(const Piece& whole, Divides divides) {
+    std::vector<Piece> out;
+    int depth = 0;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i <= whole.text.size(); ++i) {
+        const bool end = i == whole.text.size();
+        if (!end) depth = std::max(depth + (whole.text[i] == '(') - (whole.text[i] == ')'), 0);
+        if (!end && (depth > 0 || !divides(whole.text[i]))) continue;
+        if (const Piece p = part(whole, begin, i); !p.text.empty()) out.push_back(p);
+        begin = i + 1;
+    }
+    return out;
+}
+
+/// Where a single '=' stands, which is no comparison.
+std::size_t assignment_in(std::string_view text) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '=') continue;
+        if (i + 1 < text.size() && text[i + 1] == '=')
+            ++i;
+        else if (i == 0 || std::string_view("<>!").find(text[i - 1]) == std::string_view::npos)
+            return i;
+    }
+    return std::string_view::npos;
+}
+
+std::string_view word_of(std::string_view text) {
+    return text.substr(0, std::ranges::find_if_not(text, in_name) - text.begin());
+}
+bool begins_with_word(std::string_view text, std::string_view word) { return word_of(text) == word; }
+
+constexpr const char* forms =
+    "an equation is u = ..., x' = ..., dx/dt = ..., output y = ..., input v or when CONDITION: x' = ...";
+
+class Reader {
+  public:
+    explicit Reader(const Report& report) : report_(report) {}
+
+    std::vector<Statement> read(std::string_view text) {
+        std::string without_remarks(text);
+        for (std::size_t at = 0; (at = without_remarks.find('#', at)) != std::string::npos;)
+            for (; at < without_remarks.size() && without_remarks[at] != '\n'; ++at)
+                without_remarks[at] = ' ';
+        for (const Piece& line :
+             divided({without_remarks, 0}, [](char c) { return c == '\n' || c == ';'; })) {
+            try {
+                statement(line);
+            } catch (const FormulaError& e) {
+                report_(e);
+            }
+        }
+        return std::move(out_);
+    }
+
+  private:
+    void statement(const Piece& line) {
+        if (!begins_with_word(line.text, "when") || assignment_in(line.text) == word_of(line.text).size())
+            return assignment(line, {}, false);
+        const auto parts = divided(line, [](char c) { return c == ':'; });
+        if (parts.size() != 2)
+            throw FormulaError(line.at, "'when' needs a condition, ':' and what happens then",
+                               "when v' >= 30: v' = c, u' = u' + d");
+        const Piece condition = part(parts[0], std::string_view("when").size());
+        bool follows = false;
+        for (const Piece& each : divided(parts[1], [](char c) { return c == ','; }))
+            assignment(each, condition, follows), follows = true;
+    }
+
+    void assignment(const Piece& line, const Piece& condition, bool follows) {
+        Statement s;
+        s.condition = condition, s.follows = follows;
+        const auto equals = std::min(assignment_in(line.text), line.text.size());
+        Piece left = part(line, 0, equals);
+        s.formula = equals < line.text.size() ? part(line, equals + 1) : Piece();
+        const bool is_output = begins_with_word(left.text, "output") && left.text != "output";
+        if (is_output) s.kind = Statement::Kind::output, left = part(left, word_of(left.text).size());
+        const bool is_input =
+            equals == line.text.size() && begins_with_word(left.text, "input") && left.text != "input";
+        if (is_input) s.kind = Statement::Kind::input, left = part(left, word_of(left.text).size());
+        s.at = left.at;
+        if (left.text.ends_with("/dt") && left.text.starts_with('d') && !is_output) {
+            s.kind = Statement::Kind::derivative;
+            left.text = left.text.substr(1, left.text.size() - 1 - std::string_view("/dt").size());
+        } else if (left.text.ends_with('\'')) {
+            if (!is_output) s.kind = Statement::Kind::next;
+            left.text.pop_back();
+        }
+        s.name = left.text;
+        if (equals == line.text.size() && !is_output && !is_input)
+            throw FormulaError(line.at, "this is no equation", forms);
+        if (s.name.empty() || !is_formula_name(s.name))
+            throw FormulaError(s.at, fmt::format("'{}' cannot be computed", left.text),
+                               "the left side is a name: letters, digits and _, no word of the formulas");
+        if (equals < line.text.size() && s.formula.text.empty())
+            throw FormulaError(line.at + equals, fmt::format("'{}' has no formula", s.name));
+        if (!condition.text.empty() && (s.kind == Statement::Kind::derivative || is_output || is_input))
+            throw FormulaError(s.at, "this cannot stand under 'when'", "when CONDITION: x' = ..., u = ...");
+        out_.push_back(std::move(s));
+    }
+
+    const Report& report_;
+    std::vector<Statement> out_;
+};
+
+}  // namespace
+
+std::vector<Statement> read_statements(std::string_view text, const Report& report) {
+    return Reader(report).read(text);
+}
+
+}  // namespace forage::equations
