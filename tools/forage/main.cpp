@@ -130,10 +130,11 @@ int program(int argc, char** argv) {
         *app.add_subcommand("view", "Write a page, index.html, with the pictures and tables of results");
     view_command.footer("Example:\n  forage view forage-out");
     view_command.add_option("DIR", directory, "Directory of results [forage-out]")->option_text(" ");
-    auto& types_command =
-        *app.add_subcommand("types", "List the neuron, synapse and module types, or describe one");
-    types_command.footer("Example:\n  forage types neuronLinearThreshold");
-    types_command.add_option("NAME", type, "The type to describe")->option_text(" ");
+    auto& types_command = *app.add_subcommand(
+        "types",
+        "List the neuron, synapse and module types, or describe one, or those that a system declares");
+    types_command.footer("Examples:\n  forage types neuronLinearThreshold\n  forage types model.iqr");
+    types_command.add_option("NAME", type, "The type to describe, or a system file (.iqr)")->option_text(" ");
     auto& schema_command =
         *app.add_subcommand("schema", "Print a RELAX NG schema of system files, for editors");
     schema_command.footer("Example:\n  forage schema > iqr.rng");

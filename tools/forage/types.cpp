@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include <fmt/format.h>
+#include <forage/system.h>
 
 #include "core/base/print.h"
 #include "core/xml/schema.h"
@@ -32,7 +34,8 @@ class Rows {
 
 template <class Type>
 void describe(const Type& type) {
-    print("{} ({})\n{}\n", type.name, type.label, type.doc);
+    print("{}{}\n", type.name, type.label == type.name ? "" : fmt::format(" ({})", type.label));
+    if (!type.doc.empty()) print("{}\n", type.doc);
     Rows rows("Parameters");
     for (const auto& p : type.parameters) {
         const std::string value = to_text(p.default_value);
@@ -65,6 +68,8 @@ void describe_inputs(const NeuronType& type) {
     Rows rows("Inputs");
     for (std::size_t i = 0; i < input_kinds; ++i)
         rows.add(inputs[i].first, std::string(inputs[i].second) + (type.reads[i] ? "" : " (not read)"));
+    for (const auto& input : type.inputs)
+        rows.add(input, "Further input, of connections with input=\"" + input + "\"");
     rows.print();
 }
 
@@ -80,6 +85,40 @@ void describe_ports(const ModuleType& type) {
         rows.print();
     }
     if (type.any_ports) print("\nCross references of any name.\n");
+}
+
+void describe_all(const NeuronType& type) {
+    describe(type);
+    describe_inputs(type);
+    describe_states(type);
+}
+
+void describe_all(const SynapseType& type) {
+    describe(type);
+    describe_states(type);
+    Rows rows("Cross references to states of the target");
+    for (const auto& f : type.feedback)
+        if (!f.own) rows.add(f.name, f.label + (f.required ? "" : " (optional)"));
+    rows.print();
+}
+
+void describe_all(const ModuleType& type) {
+    describe(type);
+    describe_ports(type);
+}
+
+/// Describes the types that a system declares.
+int types_of_file(const std::string& path, const std::vector<std::string>& plugins) {
+    const SystemFile file = read_system(path, plugins);
+    const char* between = "";
+    const auto one = [&](const auto* type) {
+        print("{}", std::exchange(between, "\n"));
+        describe_all(*type);
+    };
+    for (const auto& t : file.model.neuron_types) one(file.types->neuron(t.name));
+    for (const auto& t : file.model.synapse_types) one(file.types->synapse(t.name));
+    if (!*between) print("{} declares no types.\n", path);
+    return fine;
 }
 
 template <class Map>
@@ -109,6 +148,7 @@ int schema(const SchemaOptions& options) {
 }
 
 int types(const std::string& name, const std::vector<std::string>& plugins) {
+    if (name.ends_with(".iqr")) return types_of_file(name, plugins);
     const auto found = registry_with(plugins);
     if (!found) return bad_input;
     const Registry& registry = *found;
@@ -119,25 +159,9 @@ int types(const std::string& name, const std::vector<std::string>& plugins) {
         print("'forage types NAME' describes one.\n");
         return fine;
     }
-    if (const auto* neuron = registry.neuron(name)) {
-        describe(*neuron);
-        describe_inputs(*neuron);
-        describe_states(*neuron);
-        return fine;
-    }
-    if (const auto* synapse = registry.synapse(name)) {
-        describe(*synapse);
-        describe_states(*synapse);
-        Rows rows("Cross references to states of the target");
-        for (const auto& f : synapse->feedback) rows.add(f.name, f.label + (f.required ? "" : " (optional)"));
-        rows.print();
-        return fine;
-    }
-    if (const auto* module = registry.module(name)) {
-        describe(*module);
-        describe_ports(*module);
-        return fine;
-    }
+    if (const auto* neuron = registry.neuron(name)) return describe_all(*neuron), fine;
+    if (const auto* synapse = registry.synapse(name)) return describe_all(*synapse), fine;
+    if (const auto* module = registry.module(name)) return describe_all(*module), fine;
     std::vector<std::string> all = names(registry.neurons());
     for (const auto& n : names(registry.synapses())) all.push_back(n);
     for (const auto& n : names(registry.modules())) all.push_back(n);

@@ -64,6 +64,7 @@ json describe_types(const Registry& registry) {
         constexpr const char* kinds[] = {"excitatory", "inhibitory", "modulatory"};
         for (std::size_t k = 0; k < input_kinds; ++k)
             if (type.reads[k]) row["reads"].push_back(kinds[k]);
+        for (const auto& input : type.inputs) row["reads"].push_back(input);
         for (const auto& s : type.states)
             row["states"].push_back({{"name", s.name}, {"label", s.label}, {"output", s.output}});
         neurons.push_back(std::move(row));

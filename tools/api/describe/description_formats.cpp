@@ -30,6 +30,11 @@ std::string with_parameters(const TypeDescription& type) {
     return type.parameters.empty() ? type.type : fmt::format("{} ({})", type.type, parameters_of(type));
 }
 
+std::string text_of(const ConstantDescription& c) {
+    return fmt::format("{} = {}{}{}", c.name, to_text(c.value), c.unit.empty() ? "" : " " + c.unit,
+                       c.doc.empty() ? "" : ": " + c.doc);
+}
+
 std::string module_of(const ProcessDescription& process) {
     return process.module.type + (process.module_enabled ? "" : ", switched off");
 }
@@ -98,6 +103,17 @@ std::vector<Table> tables(const SystemDescription& d) {
                                           : "as fast as possible"}};
     Table constants{"Constants", {"Constant", "Value", "Unit", "Meaning"}, {0, 0, 0, 0.5}, {}};
     for (const auto& c : d.constants) constants.rows.push_back({c.name, to_text(c.value), c.unit, c.doc});
+    Table types{"Types", {"Type", "Equations", "Constants and first values"}, {0, 0.5, 0.3}, {}};
+    for (const auto& t : d.types) {
+        std::string equations, values;
+        for (const auto& line : t.equations) equations += (equations.empty() ? "" : "; ") + line;
+        for (const auto& c : t.constants)
+            values += fmt::format("{}{} = {}{}", values.empty() ? "" : ", ", c.name, to_text(c.value),
+                                  c.unit.empty() ? "" : " " + c.unit);
+        for (const auto& [name, value] : t.states)
+            values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", name, value);
+        types.rows.push_back({fmt::format("{} ({})", t.name, t.kind), equations, values});
+    }
     Table modules{"Modules", {"Process", "Module", "Reads", "Writes"}, {0, 0.3, 0.22, 0.22}, {}};
     Table groups{"Populations", {"Group", "Size", "Neuron", "Parameters"}, {0.28, 0, 0, 0.32}, {}};
     Table connections{"Connections",
@@ -124,9 +140,24 @@ std::vector<Table> tables(const SystemDescription& d) {
                                     with_parameters(c.synapse)});
     }
     std::vector<Table> out{std::move(summary)};
-    for (Table* t : {&constants, &modules, &groups, &connections})
+    for (Table* t : {&constants, &types, &modules, &groups, &connections})
         if (!t->rows.empty()) out.push_back(std::move(*t));
     return out;
+}
+
+nlohmann::ordered_json json_of(const std::vector<ConstantDescription>& constants) {
+    auto out = nlohmann::ordered_json::array();
+    for (const auto& c : constants)
+        out.push_back({{"name", c.name}, {"value", c.value}, {"unit", c.unit}, {"doc", c.doc}});
+    return out;
+}
+
+nlohmann::ordered_json json_of(const DeclarationDescription& type) {
+    nlohmann::ordered_json states = nlohmann::ordered_json::object();
+    for (const auto& [name, value] : type.states) states[name] = value;
+    return {{"name", type.name}, {"kind", type.kind},
+            {"doc", type.doc},   {"constants", json_of(type.constants)},
+            {"states", states},  {"equations", type.equations}};
 }
 
 nlohmann::ordered_json json_of(const TypeDescription& type) {
@@ -143,9 +174,15 @@ std::string as_text(const SystemDescription& d) {
                     number_of(d.groups(), "group"), number_of(d.cells(), "cell"),
                     number_of(d.connections.size(), "connection"), number_of(d.synapses(), "synapse"));
     if (!d.constants.empty()) out += "\nConstants\n";
-    for (const auto& c : d.constants)
-        out += fmt::format("    {} = {}{}{}\n", c.name, to_text(c.value), c.unit.empty() ? "" : " " + c.unit,
-                           c.doc.empty() ? "" : ": " + c.doc);
+    for (const auto& c : d.constants) out += "    " + text_of(c) + "\n";
+    if (!d.types.empty()) out += "\nTypes\n";
+    for (const auto& t : d.types) {
+        out += fmt::format("    {} ({}){}{}\n", t.name, t.kind, t.doc.empty() ? "" : ": ", t.doc);
+        for (const auto& line : t.equations) out += "      " + line + "\n";
+        for (const auto& c : t.constants) out += "        " + text_of(c) + "\n";
+        for (const auto& [name, value] : t.states)
+            out += fmt::format("        {} = {} at start\n", name, value);
+    }
     for (const auto& p : d.processes) {
         out += fmt::format("\n{}{}\n", p.name, p.file.empty() ? "" : ", linked to " + p.file);
         if (!p.module.type.empty()) {
@@ -230,9 +267,8 @@ std::string as_dot(const SystemDescription& d) {
 
 std::string as_json(const SystemDescription& d) {
     using Json = nlohmann::ordered_json;
-    Json processes = Json::array(), connections = Json::array(), constants = Json::array();
-    for (const auto& c : d.constants)
-        constants.push_back({{"name", c.name}, {"value", c.value}, {"unit", c.unit}, {"doc", c.doc}});
+    Json processes = Json::array(), connections = Json::array(), types = Json::array();
+    for (const auto& t : d.types) types.push_back(json_of(t));
     for (const auto& p : d.processes) {
         Json groups = Json::array(), module = nullptr;
         for (const auto& g : p.groups)
@@ -271,10 +307,15 @@ std::string as_json(const SystemDescription& d) {
                                {"delay", c.delay},
                                {"synapse", json_of(c.synapse)},
                                {"notes", c.notes}});
-    return Json{{"name", d.name},         {"author", d.author},
-                {"date", d.date},         {"cycles_per_second", d.cycles_per_second},
-                {"constants", constants}, {"notes", d.notes},
-                {"processes", processes}, {"connections", connections}}
+    return Json{{"name", d.name},
+                {"author", d.author},
+                {"date", d.date},
+                {"cycles_per_second", d.cycles_per_second},
+                {"constants", json_of(d.constants)},
+                {"types", types},
+                {"notes", d.notes},
+                {"processes", processes},
+                {"connections", connections}}
                .dump(2) +
            "\n";
 }

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/number.h"
 #include "core/model/constants.h"
 #include "core/model/lookup.h"
 
@@ -145,6 +146,19 @@ ProcessDescription describe(const model::Process& process, const Paths& paths) {
     return out;
 }
 
+DeclarationDescription describe(const model::TypeDeclaration& type, std::string kind,
+                                model::Constants& constants) {
+    DeclarationDescription out{std::move(kind), type.name, type.doc, {}, {}, model::equation_lines(type)};
+    for (const auto& c : type.constants) {
+        const auto value =
+            in_braces(c.value) ? constants.value(c.value, nullptr) : parse_number<double>(c.value);
+        out.constants.push_back({c.name, value.value_or(0), c.unit, c.doc});
+    }
+    for (const auto& s : type.states)
+        if (!s.value.empty()) out.states.emplace_back(s.name, s.value);
+    return out;
+}
+
 }  // namespace
 
 std::size_t SystemDescription::groups() const {
@@ -172,6 +186,7 @@ SystemDescription describe(const model::System& system, const engine::Simulation
                           .date = system.date,
                           .cycles_per_second = system.cycles_per_second,
                           .constants = {},
+                          .types = {},
                           .processes = {},
                           .connections = {},
                           .notes = system.note.value_or("")};
@@ -180,6 +195,8 @@ SystemDescription describe(const model::System& system, const engine::Simulation
         const auto* constant = model::find_constant(system, name);
         out.constants.push_back({name, constants.value_of(name).value_or(0), constant->unit, constant->doc});
     }
+    for (const auto& t : system.neuron_types) out.types.push_back(describe(t, "neuron", constants));
+    for (const auto& t : system.synapse_types) out.types.push_back(describe(t, "synapse", constants));
     Paths paths;
     const auto in_order = model::group_paths(system);
     auto next = in_order.begin();
@@ -205,7 +222,8 @@ SystemDescription describe(const model::System& system, const engine::Simulation
              .name = std::string(model::trim(c.name)),
              .source = path_of(c.source),
              .target = path_of(c.target),
-             .kind = name_of(c.kind),
+             .kind =
+                 (c.input.empty() ? name_of(c.kind) : c.input) + (c.state.empty() ? "" : " from " + c.state),
              .synapses = built ? compiled->synapses(number->second) : 0,
              .form = built ? std::string(compiled->connection_form(number->second)) : "not built",
              .pattern = describe(c.pattern),

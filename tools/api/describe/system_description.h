@@ -45,7 +45,7 @@ struct ProcessDescription {
 struct ConnectionDescription {
     std::string id, name;
     std::string source, target;  ///< paths of groups
-    std::string kind;            ///< excitatory, inhibitory or modulatory
+    std::string kind;            ///< excitatory, inhibitory, modulatory or an input, and " from " a state
     std::size_t synapses = 0;
     std::string form;  ///< how it is computed: "window", "list", ...
     /// Which cells are paired, how a pair spreads into synapses, and how attenuation and delay follow from
@@ -61,10 +61,19 @@ struct ConstantDescription {
     std::string unit, doc;  ///< may be empty
 };
 
+/// A type that the system declares.
+struct DeclarationDescription {
+    std::string kind, name, doc;  ///< "neuron" or "synapse"
+    std::vector<ConstantDescription> constants;
+    std::vector<std::pair<std::string, std::string>> states;  ///< those with a value, as the file writes it
+    std::vector<std::string> equations;                       ///< a line each
+};
+
 struct SystemDescription {
     std::string name, author, date;
     double cycles_per_second = 0;  ///< Hz; 0: as fast as possible
     std::vector<ConstantDescription> constants;
+    std::vector<DeclarationDescription> types;
     std::vector<ProcessDescription> processes;
     std::vector<ConnectionDescription> connections;
     std::string notes;
@@ -77,7 +86,7 @@ SystemDescription describe(const model::System& system, const engine::Simulation
 
 /// The description for a terminal: each connection below its source.
 std::string as_text(const SystemDescription& description);
-/// Three tables in Markdown: processes and modules, groups, connections.
+/// Tables in Markdown: a summary, constants, types, modules, groups, connections.
 std::string as_markdown(const SystemDescription& description);
 /// The tables of Nordlie, Gewaltig and Plesser (2009, PLoS Comput. Biol. 5:e1000456) as a LaTeX fragment
 /// to include: a summary, populations, connections. It needs the packages longtable and booktabs.
