@@ -112,6 +112,27 @@ def test_constants():
     assert light.params["excGain"] == 1.5 and list(system.constants) == ["half"]
 
 
+def test_types_by_equations():
+    system = forage.System("equations", cycles_per_second=100)
+    process = system.add_process("P")
+    one = system.add_neuron_type("one", "output y = level", constants={"level": 1})
+    leaky = system.add_neuron_type("leaky", "dx/dt = (exc - x) / tau; output x", constants={"tau": "{5 * dt}"}, states={"x": 0.5})
+    hebb = system.add_synapse_type("hebb", "weight' = weight + eta * pre * post'; output psp = weight' * pre'", constants={"eta": 0.01}, doc="Learns.")
+    source, cell = process.add_group("Source", type=one), process.add_group("Cell", type=leaky, tau=0.1)
+    system.connect(source, cell, synapse=hebb, name="C")
+    assert forage.System.parse(system.to_xml()) == system
+    before = system.to_xml()
+    for name, equations, words in (("leaky", "output y = exc", "there is already"), ("new", "output y = ecx", "did you mean 'exc'"), ("new", "", "no equation")):
+        with pytest.raises(forage.InputError, match=words):
+            system.add_neuron_type(name, equations)
+    assert system.to_xml() == before
+    run = forage.open(system)
+    run.run(cycles=2)
+    x = 0.5 - 0.1 * 0.5
+    assert run["P/Cell:x"][0] == pytest.approx(x - 0.1 * x)  # the weight was 0
+    assert run.params["Cell.tau"] == 0.1
+
+
 def test_a_constant_changes_a_run():
     system = forager()
     system.constants["gain"] = 2

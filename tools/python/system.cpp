@@ -66,6 +66,7 @@ SystemConnection connect(PythonSystem& self, const py::object& source, const py:
                          const std::string& kind, const py::object& synapse_type, const std::string& name,
                          const std::string& id, const py::object& pattern, const py::object& arborization,
                          const py::object& attenuation, const py::object& delay,
+                         const std::string& input_name, const std::string& state,
                          const py::kwargs& parameters) {
     const std::string from = group_of(self, source).id, to = group_of(self, target).id;
     const std::string synapse = type_name(synapse_type);
@@ -80,6 +81,7 @@ SystemConnection connect(PythonSystem& self, const py::object& source, const py:
         {self.shared_from_this(), model::add_connection(self.model, from, to, input, synapse, id)}};
     auto& c = out.use();
     if (!name.empty()) c.name = name;
+    c.input = input_name, c.state = state;
     c.pattern = std::move(wanted.pattern), c.arborization = wanted.arborization;
     c.attenuation = wanted.attenuation, c.delay = wanted.delay;
     try {
@@ -195,6 +197,7 @@ system["Process/Group"], system["Process"] and system["Connection"] are its item
 A with-block is carried out as a whole: at its end the system is checked as validate() does, and after a mistake or an exception it is what it was before.
 Systems are equal when their content is; == does not compare paths.)");
     add_system_items(system);
+    add_system_types(system);
     system
         .def(py::init(&make_system), "name"_a = "system", py::kw_only(), "cycles_per_second"_a = 25.0,
              "plugins"_a = no_plugins,
@@ -272,12 +275,14 @@ Raises InputError for mistakes in the system, and ValueError for another format.
              "Adds an empty process and returns it. Without an id, a new one is made.")
         .def("connect", &connect, "source"_a, "target"_a, "kind"_a = "excitatory", py::kw_only(),
              "synapse"_a = "synapseFixedWeight", "name"_a = "", "id"_a = "", "pattern"_a = none,
-             "arborization"_a = none, "attenuation"_a = 0.0, "delay"_a = 0.0,
+             "arborization"_a = none, "attenuation"_a = 0.0, "delay"_a = 0.0, "input"_a = "", "state"_a = "",
              R"(Adds a connection between two groups, or names of groups, and returns it.
 
 kind: "excitatory", "inhibitory" or "modulatory".
 synapse: the name of a synapse type, or a class that is one (forage.synapse); further keywords are its parameters, such as weight=0.5.
 pattern: which cells it pairs, a Pattern; cells at the same place without it.
+input: in place of the kind, a further input that the target's type declares.
+state: the state of the source that it transmits; its output without it.
 arborization: how each pair spreads, an Arborization; not at all without it.
 attenuation, delay: a number for all distances, or a DistanceFunction; delays are in cycles.
 

@@ -75,6 +75,7 @@ void add_member(Class& type, const char* name, T Model::*member, const char* doc
 void add_system_constants(py::handle system);
 /// Adds the classes of its items to the class System.
 void add_system_items(py::handle system);
+void add_system_types(py::class_<PythonSystem, std::shared_ptr<PythonSystem>>& system);
 
 /// The group that `group` is or names. Throws InputError.
 SystemGroup group_of(PythonSystem& system, const py::object& group);

@@ -340,7 +340,7 @@ void add_neuron(const py::object& given) {
                                .feedback = output || s.attr("feedback").cast<bool>(),
                                .initial = s.attr("initial").cast<double>()});
     }
-    type.reads = given.attr("reads").cast<std::array<bool, input_kinds>>();
+    std::ranges::copy(given.attr("reads").cast<std::array<bool, input_kinds>>(), type.reads.begin());
     type.make = [declared, states = names_of(type.states)] {
         return std::make_unique<PythonNeuron>(declared, states);
     };

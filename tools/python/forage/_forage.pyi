@@ -372,6 +372,24 @@ class System:
     def groups(self) -> tuple[System.Group, ...]: ...
     @property
     def connections(self) -> tuple[System.Connection, ...]: ...
+    def add_neuron_type(
+        self,
+        name: str,
+        equations: str,
+        *,
+        constants: typing.Mapping[str, typing.Union[float, str]] = ...,
+        states: typing.Mapping[str, typing.Union[float, str]] = ...,
+        doc: str = "",
+    ) -> str: ...
+    def add_synapse_type(
+        self,
+        name: str,
+        equations: str,
+        *,
+        constants: typing.Mapping[str, typing.Union[float, str]] = ...,
+        states: typing.Mapping[str, typing.Union[float, str]] = ...,
+        doc: str = "",
+    ) -> str: ...
     def add_process(self, name: str, *, id: str = "") -> System.Process: ...
     def connect(
         self,
@@ -386,6 +404,8 @@ class System:
         arborization: typing.Optional[Arborization] = None,
         attenuation: _Function = 0.0,
         delay: _Function = 0.0,
+        input: str = "",
+        state: str = "",
         **parameters: _Value,
     ) -> System.Connection: ...
     def remove(self, item: typing.Union[str, System.Process, System.Group, System.Connection]) -> None: ...
