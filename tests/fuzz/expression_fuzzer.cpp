@@ -1,8 +1,11 @@
 // Tries all expressions of command lines and experiments. The first byte chooses the kind, and the names are
 // those of a small system.
 #include <cstdint>
+#include <cstring>
+#include <vector>
 
 #include "core/engine/simulation.h"
+#include "core/equations/compile.h"
 #include "core/formula/formula.h"
 #include "core/model/edit.h"
 #include "core/model/world_change.h"
@@ -51,6 +54,28 @@ void manipulate(const SmallSystem& small, Mode mode, const std::string& text, Di
     }
 }
 
+/// Compiles equations of neurons and of synapses, and runs those without mistakes.
+void try_equations(const std::string& text) {
+    for (const bool synapse : {false, true}) {
+        bool sound = true;
+        const auto compiled =
+            equations::compile(text, {synapse, {"tau"}, {"x"}, {"gain"}}, [&](const FormulaError& e) {
+                sound = false;
+                test::holds(e.at <= text.size(), "a mistake has a place in the equations");
+            });
+        if (!sound) continue;
+        constexpr Index cells = 3;
+        const std::vector<double> scalars(2 + compiled.constants.size(), 0.5), column(cells, 0.25);
+        const std::vector<const double*> read(compiled.reads.size(), column.data());
+        std::vector<std::vector<double>> results(compiled.written.size(), std::vector<double>(cells));
+        std::vector<double*> written;
+        for (auto& r : results) written.push_back(r.data());
+        compiled.program.run(scalars, read, written, cells);
+        for (const auto& r : results)
+            test::holds(std::memcmp(&r[0], &r[1], sizeof r[0]) == 0, "equal cells have equal results");
+    }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -59,7 +84,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
     Diagnostics diagnostics;
     auto& simulation = *small.simulation;
-    switch (data[0] % 9) {
+    switch (data[0] % 10) {
         case 0:
         case 1:
             if (const auto c = observe::parse_condition(simulation.layout(), data[0] & 1, text, "--until",
@@ -105,6 +130,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             } catch (const FormulaError& e) {
                 test::holds(e.at <= text.size(), "a mistake has a place in the text");
             }
+            break;
+        case 8:
+            try_equations(text);
             break;
         default:
             manipulate(small, Mode::add, text, diagnostics);

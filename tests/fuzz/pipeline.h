@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/connectivity/connect.h"
+#include "core/equations/declared_types.h"
 #include "core/model/lookup.h"
 #include "core/model/validate.h"
 #include "core/xml/patch.h"
@@ -48,7 +49,11 @@ inline PipelineResult run_pipeline(const std::string& text, const Registry& regi
     const auto system = xml::parse_system("input.iqr", text, diagnostics);
     result.read = system.has_value();
     must(result.read || diagnostics.failed(), "where there is no error, a system is read");
-    if (system) model::validate(*system, registry, diagnostics);
+    Registry types = registry;
+    if (system) {
+        equations::add_types(*system, types, diagnostics);
+        model::validate(*system, types, diagnostics);
+    }
     result.checked = !diagnostics.failed();
     if (result.checked) {
         edit(text, *system);
