@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "core/base/diagnostic.h"
+#include "core/formula/elsewhere.h"
 #include "core/types/neuron_columns.h"
 
 namespace forage::equations {
@@ -33,8 +34,7 @@ class Compiler {
     }
 
     Compiled compile(std::string_view text) {
-        bool sound = true;
-        const auto all = read_statements(text, [&](const FormulaError& e) { sound = false, report_(e); });
+        const auto all = read_statements(text, [&](const FormulaError& e) { sound_ = false, report_(e); });
         declare(all);
         for (const Statement& s : all) {
             try {
@@ -44,9 +44,9 @@ class Compiler {
                 define(s, std::nullopt);
             }
         }
-        if (all.empty() && sound)
+        if (all.empty() && sound_)
             report_(FormulaError(0, "there is no equation", "dx/dt = (exc - x) / tau"));
-        else if (output_.empty() && sound)
+        else if (output_.empty() && sound_)
             report_(FormulaError(
                 all.back().at, "the equations name no output",
                 names_.synapse ? "output psp = w' * pre'" : "output x, or output y = max(x', 0)"));
@@ -58,16 +58,15 @@ class Compiler {
   private:
     /// Finds the states and the output, which equations above may use.
     void declare(const std::vector<Statement>& all) {
-        std::set<std::string> values;
         for (const auto& s : all)
-            if (s.kind == Kind::value) values.insert(s.name);
+            if (s.kind == Kind::value) later_.insert(s.name);
         for (const auto& s : all)
             if (s.kind == Kind::input && !names_.synapse && !reserved(s.name) &&
                 out_.inputs.size() < max_inputs - input_kinds)
                 out_.inputs.push_back(s.name);
         for (const auto& s : all) {
             if (s.kind == Kind::value || s.kind == Kind::input || has(out_.states, s.name)) continue;
-            if (s.kind == Kind::output && s.formula.text.empty() && !values.contains(s.name)) continue;
+            if (s.kind == Kind::output && s.formula.text.empty() && !later_.contains(s.name)) continue;
             out_.states.push_back(s.name);
             if (s.kind == Kind::output && s.formula.text.empty()) shown_.insert(s.name);
         }
@@ -81,7 +80,7 @@ class Compiler {
     void receive(const Statement& s) {
         if (names_.synapse)
             throw FormulaError(s.at, "synapses have no inputs of their own", "they read pre and post");
-        if (std::ranges::count(out_.inputs, s.name) > 1)
+        if (defined_at_.contains(s.name))
             throw FormulaError(s.at, fmt::format("there is already an input '{}'", s.name),
                                "choose another name");
         defined_at_[s.name] = s.at;
@@ -94,17 +93,22 @@ class Compiler {
         if (s.kind == Kind::input && (has(out_.inputs, s.name) || !reserved(s.name))) return receive(s);
         if (const char* what = reserved(s.name))
             throw FormulaError(s.at, fmt::format("'{}' is {} and cannot be computed", s.name, what),
-                               "choose another name");
+                               s.kind == Kind::output && s.formula.text.empty()
+                                   ? fmt::format("output y = {}", s.name)
+                                   : "choose another name");
         if (s.kind == Kind::output) return show(s);
         if (s.kind == Kind::value && is_state(s.name))
             throw FormulaError(s.at, fmt::format("'{}' is a state", s.name),
                                fmt::format("its value after the cycle is {0}': write {0}' = ...", s.name));
         auto& to = s.kind == Kind::value ? values_ : next_;
         const auto before = to.find(s.name);
-        if (s.condition.text.empty() && before != to.end())
+        const bool twice = s.condition.text.empty() && before != to.end();
+        if (twice && (!sound_ || !before->second)) return;  // reported
+        if (twice)
             throw FormulaError(
                 s.at, fmt::format("{} is computed twice", written(s)),
                 fmt::format("a change on a condition is written when CONDITION: {} = ...", written(s)));
+        look(s);
         std::optional<Value> value = formula(s.formula);
         if (s.kind == Kind::derivative)  // x' = x + dt * ...
             value = combined(Op::add, old(s.name), combined(Op::multiply, scalar("dt"), value));
@@ -119,6 +123,41 @@ class Compiler {
             value = combined(Op::choice, condition_, value, otherwise);
         }
         define(s, value);
+    }
+
+    /// Notes time constants, and warns of a derivative that is written as a new value.
+    void look(const Statement& s) {
+        const Formula f = parsed(s.formula);
+        const auto& nodes = f.nodes();
+        const auto name_of = [&](const Formula::Node& n) { return n.op == Op::name ? f.name(n) : ""; };
+        const bool has_dt = std::ranges::any_of(nodes, [&](const auto& n) { return name_of(n) == "dt"; });
+        // Calls visit(summand, whether it is subtracted).
+        const auto each_summand = [&](const auto& self, const Formula::Node& n, bool minus,
+                                      const auto& visit) -> void {
+            if (n.op == Op::add || n.op == Op::subtract) {
+                self(self, nodes[n.parts[0]], minus, visit);
+                self(self, nodes[n.parts[1]], minus != (n.op == Op::subtract), visit);
+            } else if (n.op == Op::negative) {
+                self(self, nodes[n.parts[0]], !minus, visit);
+            } else {
+                visit(n, minus);
+            }
+        };
+        bool alone = false;  // x is a summand
+        std::string tau;     // a summand is (... - x) / tau, or -x / tau
+        each_summand(each_summand, nodes.back(), false, [&](const auto& n, bool outer) {
+            alone |= name_of(n) == s.name;
+            if (n.op != Op::divide || nodes[n.parts[1]].op != Op::name) return;
+            each_summand(each_summand, nodes[n.parts[0]], outer, [&](const auto& part, bool minus) {
+                if (minus && name_of(part) == s.name) tau = name_of(nodes[n.parts[1]]);
+            });
+        });
+        if (tau.empty()) return;
+        if (s.kind == Kind::derivative && has(names_.constants, tau)) out_.time_constants.push_back(tau);
+        if (s.kind == Kind::next && s.condition.text.empty() && !alone && !has_dt && tau.starts_with("tau"))
+            out_.warnings.emplace_back(
+                s.at, fmt::format("{0}' is the value of {0} after this cycle, not its derivative", s.name),
+                fmt::format("d{}/dt = {}", s.name, s.formula.text));
     }
 
     void define(const Statement& s, std::optional<Value> value) {
@@ -139,6 +178,9 @@ class Compiler {
                 throw FormulaError(s.at, fmt::format("{}' is computed twice", s.name),
                                    fmt::format("output {}", s.name));
             next_[s.name] = formula(s.formula);
+            const Formula f = parsed(s.formula);
+            for (const auto& n : f.nodes())
+                if (n.op == Op::name && f.name(n) == "pre") late_output_ = s.formula.at + n.at;
         } else if (shown_.contains(s.name)) {
             if (!values_.contains(s.name))
                 throw FormulaError(s.at, fmt::format("'{}' has no value yet", s.name),
@@ -150,6 +192,10 @@ class Compiler {
     }
 
     static std::string written(const Statement& s) { return s.kind == Kind::value ? s.name : s.name + "'"; }
+
+    static bool is_input(const std::string& name) {
+        return name == "exc" || name == "inh" || name == "mod" || name == "pre" || name == "post";
+    }
 
     /// What a name that cannot be computed is; null for other names.
     const char* reserved(const std::string& name) const {
@@ -170,9 +216,17 @@ class Compiler {
         return out_.program.operation(op, *a, *b, *c);
     }
 
-    std::optional<Value> formula(const Piece& piece) {
+    static Formula parsed(const Piece& piece) {
         try {
-            const Formula formula(piece.text, Formula::Place::equation);
+            return Formula(piece.text, Formula::Place::equation);
+        } catch (const FormulaError& e) {
+            throw FormulaError(piece.at + e.at, e.what(), e.hint);
+        }
+    }
+
+    std::optional<Value> formula(const Piece& piece) {
+        const Formula formula = parsed(piece);
+        try {
             std::vector<std::optional<Value>> values;
             for (const auto& n : formula.nodes()) {
                 if (n.op == Op::number)
@@ -236,6 +290,8 @@ class Compiler {
             if (name == "pre") return source_before();
         if (names_.synapse)
             if (auto other = other_end(name)) return column(*std::move(other));
+        if (names_.synapse && name.starts_with("pre."))
+            throw Placed(at, "synapses read the output of their source, no other state", "write pre or pre'");
         if (name.find('.') != std::string::npos) unknown(name, at);
         if (name.ends_with('\'')) return after(name.substr(0, name.size() - 1), at);
         if (is_state(name)) return old(name);
@@ -285,6 +341,9 @@ class Compiler {
     }
 
     [[noreturn]] void unknown(const std::string& name, std::size_t at) const {
+        if (later_.contains(name))
+            throw Placed(at, fmt::format("'{}' is computed below", name),
+                         "equations are carried out from top to bottom: its equation belongs above");
         std::vector<std::string> known = out_.states;
         for (const auto& s : out_.states)
             if (next_.contains(s)) known.push_back(s + "'");
@@ -295,14 +354,30 @@ class Compiler {
                                                 : std::array{"exc", "inh", "mod", "t", "dt"})
             known.emplace_back(input);
         known.insert(known.end(), names_.outer.begin(), names_.outer.end());
-        throw Placed(at, fmt::format("there is no '{}' in these equations", name), suggest(name, known));
+        std::string hint = suggest(name, known);
+        if (nearest(name, known).empty())
+            hint = names_.synapse && name == "t" ? "t is for neurons; the target can pass it on: post.x"
+                   : is_input(name)
+                       ? (names_.synapse ? "a synapse reads pre and post" : "a neuron reads exc, inh and mod")
+                   : is_unit(name) ? fmt::format("units are numbers that you name: {} = ...", name)
+                   : is_equation_name(name)
+                       ? fmt::format("{}; a constant of its own is <Constant name=\"{}\" value=\"...\"/>",
+                                     hint, name)
+                       : hint;
+        throw Placed(at, fmt::format("there is no '{}' in these equations", name), hint);
     }
 
     void warn_of_unused() {
         for (const auto& [name, at] : defined_at_)
-            if (!seen_.contains(name) && !shown_.contains(name)) out_.unused.emplace_back(name, at);
-        for (const auto& name : names_.constants)
-            if (!seen_.contains(name)) out_.unused_constants.push_back(name);
+            if (!seen_.contains(name) && !shown_.contains(name))
+                out_.warnings.emplace_back(at, fmt::format("nothing uses '{}'", name));
+        if (names_.synapse && late_output_ && !seen_.contains("pre'"))
+            out_.warnings.emplace_back(*late_output_,
+                                       "this output arrives a cycle later than that of other types",
+                                       "pre' is the source's output of this cycle, pre that of the last one");
+        for (const auto* names : {&names_.constants, &names_.states})
+            for (const auto& name : *names)
+                if (!seen_.contains(name) && !next_.contains(name)) out_.unused.push_back(name);
     }
 
     void finish() {
@@ -322,11 +397,14 @@ class Compiler {
     Compiled out_;
     std::map<std::string, std::optional<Value>> values_, next_;
     std::map<std::string, std::size_t> defined_at_;
+    bool sound_ = true;            ///< all lines are equations
+    std::set<std::string> later_;  ///< all values, also of equations below
     std::set<std::string> shown_;  ///< values that `output` makes states
     std::set<std::string> seen_;   ///< names that formulas use
     std::string output_;
     bool output_seen_ = false;
     std::optional<Value> condition_;
+    std::optional<std::size_t> late_output_;  ///< where it uses the source's last output
 };
 
 }  // namespace

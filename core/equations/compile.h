@@ -50,8 +50,9 @@ struct Compiled {
     std::size_t output = 0;  ///< the state that is the output; as many as there are when it is missing
     std::size_t draws = 0;
     bool uses_time = false;
-    std::vector<std::pair<std::string, std::size_t>> unused;  ///< values, and where they are computed
-    std::vector<std::string> unused_constants;                ///< of the type
+    std::vector<std::string> time_constants;  ///< constants tau of dx/dt = (... - x) / tau
+    std::vector<std::string> unused;          ///< constants and states of the type that no equation names
+    std::vector<FormulaError> warnings;
 };
 
 /// Compiles equations. Reports mistakes, at their places in the text.

@@ -9,6 +9,7 @@
 #include "core/equations/compile.h"
 #include "core/model/constants.h"
 #include "core/model/lookup.h"
+#include "core/model/validate.h"
 
 namespace forage::equations {
 namespace {
@@ -108,17 +109,20 @@ class Synapse final : public SynapseInstance {
 class Builder {
   public:
     Builder(const model::System& system, Registry& registry, Diagnostics& out)
-        : registry_(registry), out_(out), constants_(system) {
+        : registry_(registry),
+          out_(out),
+          constants_(system),
+          seconds_per_cycle_(model::seconds_per_cycle(system)) {
         for (const auto& c : system.constants) outer_.push_back(c.name);
         for (const auto& p : system.processes)
             for (const auto& c : p.constants) outer_.push_back(c.name);
     }
 
     void add(const model::TypeDeclaration& d, bool synapse) {
-        const int errors_before = out_.errors();
+        errors_before_ = out_.errors();
         check_names(d, synapse);
         Equations equations = compile(d, synapse);
-        const bool sound = out_.errors() == errors_before;
+        const bool sound = out_.errors() == errors_before_;
         if (synapse)
             add_synapse(d, equations, sound);
         else
@@ -137,10 +141,11 @@ class Builder {
         std::vector<std::string> seen;
         const auto see = [&](const std::string& name, const Location& at, const char* what) {
             static const std::vector<std::string> inputs = {"exc", "inh", "mod", "pre", "post", "t", "dt"};
-            if (!is_formula_name(name) || std::ranges::find(inputs, name) != inputs.end())
-                out_.error(
-                    at, fmt::format("'{}' cannot be the name of a {}", name, what),
-                    "letters, digits and _, not first a digit, and not exc, inh, mod, pre, post, t or dt");
+            if (!is_equation_name(name) || std::ranges::find(inputs, name) != inputs.end())
+                out_.error(at, fmt::format("'{}' cannot be the name of a {}", name, what),
+                           "letters, digits and _, not first a digit; exc, inh, mod, pre, post, t, dt and "
+                           "the words of "
+                           "formulas and equations have a meaning of their own");
             if (std::ranges::find(seen, name) != seen.end())
                 out_.error(at, fmt::format("there is already a '{}' in this type", name),
                            "choose another name");
@@ -154,16 +159,20 @@ class Builder {
         std::string text;
         for (const auto& piece : d.equations) text += (text.empty() ? "" : "\n") + piece.text;
         const Vocabulary names{synapse, model::names_of(d.constants), model::names_of(d.states), outer_};
-        const int errors_before = out_.errors();
         auto out = std::make_shared<Compiled>(equations::compile(text, names, [&](const FormulaError& e) {
             out_.error(place(d, e.at), fmt::format("{}: {}", d.name, e.what()), e.hint);
         }));
-        if (out_.errors() > errors_before) return out;
-        for (const auto& [name, at] : out->unused)
-            out_.warning(place(d, at), fmt::format("{}: nothing uses '{}'", d.name, name));
-        for (const auto& c : d.constants)
-            if (std::ranges::find(out->unused_constants, c.name) != out->unused_constants.end())
-                out_.warning(c.at, fmt::format("{}: no equation uses the constant '{}'", d.name, c.name));
+        if (out_.errors() > errors_before_) return out;
+        for (const auto& w : out->warnings)
+            out_.warning(place(d, w.at), fmt::format("{}: {}", d.name, w.what()), w.hint);
+        const auto warn_of_unused = [&](const auto& all, const char* what) {
+            for (const auto& each : all)
+                if (std::ranges::find(out->unused, each.name) != out->unused.end())
+                    out_.warning(each.at,
+                                 fmt::format("{}: no equation uses the {} '{}'", d.name, what, each.name));
+        };
+        warn_of_unused(d.constants, "constant");
+        warn_of_unused(d.states, "state");
         if (std::max(out->reads.size(), out->states.size() + 1) >= Neuron::largest)
             out_.error(d.at, fmt::format("{} has more than {} states", d.name, Neuron::largest - 1));
         return out;
@@ -200,6 +209,15 @@ class Builder {
         return 0;
     }
 
+    void check_time_constant(const model::Constant& tau, double value) {
+        if (tau.unit == "ms" || tau.unit == "us")
+            out_.warning(tau.at,
+                         fmt::format("'{}' is in {}, and derivatives are per second", tau.name, tau.unit),
+                         "value=\"0.02\" unit=\"s\", or divide by a product with ms = 0.001");
+        else
+            model::check_time_constant(tau.name, tau.doc, value, seconds_per_cycle_, tau.value_at, out_);
+    }
+
     std::vector<Parameter> parameters(const model::TypeDeclaration& d, const Compiled& equations,
                                       Scalars& defaults) {
         std::vector<Parameter> out;
@@ -213,6 +231,9 @@ class Builder {
             if (own != d.constants.end()) {
                 defaults.push_back(value(own->value, own->value_at, name));
                 p.doc = own->doc, p.unit = own->unit;
+                p.is_time_constant =
+                    std::ranges::find(equations.time_constants, name) != equations.time_constants.end();
+                if (p.is_time_constant) check_time_constant(*own, defaults.back());
                 if (own->minimum || own->maximum)
                     p.range = {own->minimum.value_or(-std::numeric_limits<double>::infinity()),
                                own->maximum.value_or(std::numeric_limits<double>::infinity())};
@@ -305,7 +326,9 @@ class Builder {
     Registry& registry_;
     Diagnostics& out_;
     model::Constants constants_;
+    double seconds_per_cycle_;
     std::vector<std::string> outer_;
+    int errors_before_ = 0;  ///< of the type
 };
 
 }  // namespace

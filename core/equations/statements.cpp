@@ -1,8 +1,12 @@
 #include "core/equations/statements.h"
 
 #include <algorithm>
+#include <array>
+#include <utility>
 
 #include <fmt/format.h>
+
+#include "core/base/diagnostic.h"
 
 namespace forage::equations {
 namespace {
@@ -54,8 +58,29 @@ std::string_view word_of(std::string_view text) {
 }
 bool begins_with_word(std::string_view text, std::string_view word) { return word_of(text) == word; }
 
+constexpr std::array<std::string_view, 3> keywords = {"when", "output", "input"};
+
+/// A hint for the left side of an equation that is no name.
+std::string hint_for_left_side(std::string_view left) {
+    const std::string_view name = word_of(left);
+    if (left.ends_with("''") || (left.starts_with('d') && left.find('/') != left.npos))
+        return "a derivative is written dx/dt; a second one takes two equations: dx/dt = v and dv/dt = ...";
+    if (!left.empty() && std::string_view("+-*/").find(left.back()) != left.npos)
+        return fmt::format("write {0}' = {0} {1} ...", name, left.back());
+    if (left.find("when") != left.npos) return "when v' >= 1: v' = 0";
+    return "the left side is a name: letters, digits and _, no word of the formulas";
+}
+
 constexpr const char* forms =
     "an equation is u = ..., x' = ..., dx/dt = ..., output y = ..., input v or when CONDITION: x' = ...";
+
+/// A hint for a line that is no equation.
+std::string hint_for_line(std::string_view line) {
+    for (const auto keyword : keywords)
+        if (nearest(word_of(line), std::array{std::string(keyword)}) == keyword)
+            return fmt::format("did you mean '{}'?", keyword);
+    return forms;
+}
 
 class Reader {
   public:
@@ -66,21 +91,33 @@ class Reader {
         for (std::size_t at = 0; (at = without_remarks.find('#', at)) != std::string::npos;)
             for (; at < without_remarks.size() && without_remarks[at] != '\n'; ++at)
                 without_remarks[at] = ' ';
-        for (const Piece& line :
-             divided({without_remarks, 0}, [](char c) { return c == '\n' || c == ';'; })) {
-            try {
-                statement(line);
-            } catch (const FormulaError& e) {
-                report_(e);
+        for (const Piece& line : divided({without_remarks, 0}, [](char c) { return c == '\n'; })) {
+            bool after_when = false;
+            for (const Piece& each : divided(line, [](char c) { return c == ';'; })) {
+                try {
+                    if (std::exchange(after_when, false) && !begins_with_keyword(each.text))
+                        throw FormulaError(each.at, "after 'when', ',' divides the changes",
+                                           "what happens in every cycle stands on a line of its own");
+                    statement(each);
+                    after_when = is_when(each.text);
+                } catch (const FormulaError& e) {
+                    report_(e);
+                }
             }
         }
         return std::move(out_);
     }
 
   private:
+    static bool is_when(std::string_view text) {
+        return begins_with_word(text, "when") && assignment_in(text) != word_of(text).size();
+    }
+    static bool begins_with_keyword(std::string_view text) {
+        return std::ranges::find(keywords, word_of(text)) != keywords.end();
+    }
+
     void statement(const Piece& line) {
-        if (!begins_with_word(line.text, "when") || assignment_in(line.text) == word_of(line.text).size())
-            return assignment(line, {}, false);
+        if (!is_when(line.text)) return assignment(line, {}, false);
         const auto parts = divided(line, [](char c) { return c == ':'; });
         if (parts.size() != 2)
             throw FormulaError(line.at, "'when' needs a condition, ':' and what happens then",
@@ -112,10 +149,10 @@ class Reader {
         }
         s.name = left.text;
         if (equals == line.text.size() && !is_output && !is_input)
-            throw FormulaError(line.at, "this is no equation", forms);
-        if (s.name.empty() || !is_formula_name(s.name))
+            throw FormulaError(line.at, "this is no equation", hint_for_line(line.text));
+        if (!is_equation_name(s.name))
             throw FormulaError(s.at, fmt::format("'{}' cannot be computed", left.text),
-                               "the left side is a name: letters, digits and _, no word of the formulas");
+                               hint_for_left_side(left.text));
         if (equals < line.text.size() && s.formula.text.empty())
             throw FormulaError(line.at + equals, fmt::format("'{}' has no formula", s.name));
         if (!condition.text.empty() && (s.kind == Statement::Kind::derivative || is_output || is_input))
@@ -128,6 +165,12 @@ class Reader {
 };
 
 }  // namespace
+
+bool is_equation_name(std::string_view name) {
+    constexpr std::array<std::string_view, 4> others = {"normal", "uniform", "nan", "inf"};
+    return is_formula_name(name) && std::ranges::find(keywords, name) == keywords.end() &&
+           std::ranges::find(others, name) == others.end();
+}
 
 std::vector<Statement> read_statements(std::string_view text, const Report& report) {
     return Reader(report).read(text);

@@ -34,6 +34,9 @@ struct Statement {
     bool follows = false;  ///< whether it stands under the same `when` as the statement before
 };
 
+/// Whether equations can compute something of this name, and types declare it: not a word of theirs.
+bool is_equation_name(std::string_view name);
+
 /// A mistake at a place in the equations.
 using Report = std::function<void(const FormulaError&)>;
 

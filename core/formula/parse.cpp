@@ -8,6 +8,7 @@
 
 #include "core/base/diagnostic.h"
 #include "core/base/number.h"
+#include "core/formula/elsewhere.h"
 #include "core/formula/formula.h"
 
 namespace forage {
@@ -76,13 +77,14 @@ class Parser {
     }
     [[noreturn]] void unexpected() {
         const std::string_view rest = text_.substr(at_);
-        if (rest.starts_with('='))
-            fail(at_, "'=' is not expected here", "two numbers are compared with '=='");
-        if (rest.starts_with("**")) fail(at_, "'**' is not expected here", "a power is written x^2");
+        if (rest.starts_with("**")) fail(at_, "'**' is not expected here", hint_for_text(rest, in_equation_));
+        if (const auto next = word(at_); next == "if" || next == "else")
+            fail(at_, fmt::format("'{}' is not expected here", next), hint_for_text("?", in_equation_));
         if (begins_name(rest.front()) || rest.starts_with('('))
             fail(at_, fmt::format("an operator is missing before '{}'", word(at_)),
                  "a product is written a * b");
-        fail(at_, fmt::format("'{}' is not expected here", printable_piece()));
+        fail(at_, fmt::format("'{}' is not expected here", printable_piece()),
+             hint_for_text(rest, in_equation_));
     }
     std::string printable_piece() const {
         std::size_t end = at_ + 1;  // a whole character of UTF-8
@@ -175,7 +177,9 @@ class Parser {
     }
 
     std::uint32_t one() {
-        if (at_end()) fail(at_, "something is missing at its end");
+        if (at_end())
+            fail(at_, "something is missing at its end",
+                 in_equation_ ? "a line continues while a parenthesis is open" : "");
         const std::size_t at = at_;
         if (take("(")) {
             const auto out = alternatives();
@@ -234,7 +238,9 @@ class Parser {
             std::vector<std::string> known;
             if (in_equation_) known.assign(draws.begin(), draws.end());
             for (const auto& each : functions) known.emplace_back(each.name);
-            fail(at, fmt::format("there is no function '{}'", name), suggest(name, known));
+            const std::string hint = hint_for_function(name);
+            fail(at, fmt::format("there is no function '{}'", name),
+                 hint.empty() ? suggest(name, known) : hint);
         }
         std::vector<std::uint32_t> arguments;
         if (!take(")")) {
@@ -243,9 +249,13 @@ class Parser {
             if (!take(")")) at_end() ? fail(at, fmt::format("the ')' of {} is missing", name)) : unexpected();
         }
         if (arguments.size() < f->least || arguments.size() > f->most)
-            fail(at, fmt::format("{} has {} argument{} instead of {}{}", name, arguments.size(),
-                                 arguments.size() == 1 ? "" : "s", f->least,
-                                 f->most > f->least ? " or more" : ""));
+            fail(
+                at,
+                fmt::format("{} has {} argument{} instead of {}{}", name, arguments.size(),
+                            arguments.size() == 1 ? "" : "s", f->least, f->most > f->least ? " or more" : ""),
+                f->op == Op::choice ? "if(condition, a, b)"
+                : f->op == Op::clip ? "clip(x, low, high)"
+                                    : "");
         if (f->most == any_number) {
             std::uint32_t out = arguments[0];
             for (std::size_t i = 1; i < arguments.size(); ++i) out = add(f->op, at, out, arguments[i]);

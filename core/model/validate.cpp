@@ -24,6 +24,11 @@ const Parameter* find_parameter(const std::vector<Parameter>& parameters, std::s
     return it == parameters.end() ? nullptr : &*it;
 }
 
+std::string in_brackets(std::string_view sentence) {
+    if (sentence.ends_with('.')) sentence.remove_suffix(1);
+    return sentence.empty() ? "" : fmt::format(" ({})", sentence);
+}
+
 std::string_view name_of(InputKind kind) {
     return std::array{"excitatory", "inhibitory", "modulatory"}[static_cast<std::size_t>(kind)];
 }
@@ -38,6 +43,13 @@ UnknownType unknown_type(std::string_view kind, const std::string& name,
     if (const auto* original = find_missing_original_type(name))
         return {fmt::format("Forage does not have the original's {}: {}", name, original->reason),
                 std::string(original->hint)};
+    const char* other = registry.neuron(name)    ? "neuron"
+                        : registry.synapse(name) ? "synapse"
+                        : registry.module(name)  ? "module"
+                                                 : nullptr;
+    if (other)
+        return {fmt::format("there is no {} type '{}'", kind, name),
+                fmt::format("'{}' is a {} type", name, other)};
     std::string hint = suggest(name, known);
     if (!registry.unloaded.empty()) {
         const auto& [folder, how] = registry.unloaded.front();
@@ -142,10 +154,6 @@ class Validator {
     }
 
     /// A sentence without its full stop, for use within another sentence.
-    static std::string in_brackets(std::string_view sentence) {
-        if (sentence.ends_with('.')) sentence.remove_suffix(1);
-        return sentence.empty() ? "" : fmt::format(" ({})", sentence);
-    }
 
     /// The parameter that is probably meant by `name`, which may be a label.
     static const Parameter* probably(std::string_view name, const std::vector<Parameter>& parameters,
@@ -185,7 +193,9 @@ class Validator {
                                                  describe(p->kind), to_text(p->default_value)));
                 continue;
             }
-            if (p->is_time_constant) check_time_constant(s, *p, std::get<double>(*value));
+            if (p->is_time_constant)
+                check_time_constant(p->name, p->doc, std::get<double>(*value), seconds_per_cycle(system_),
+                                    s.value_at, out_);
             if (s.value_at.file &&
                 outside(*value, p->range))  // values without a file were checked when they were set
                 note_unusual(s, *p);
@@ -205,19 +215,6 @@ class Validator {
                        e.hint);
         }
         return false;
-    }
-
-    void check_time_constant(const Setting& s, const Parameter& p, double tau) {
-        const double dt = seconds_per_cycle(system_);
-        if (!(tau > 0))
-            out_.error(s.value_at, fmt::format("{} = {} is not possible", p.name, s.in_force(p.kind)),
-                       fmt::format("{}{} is a time constant: more than 0 s", p.name, in_brackets(p.doc)));
-        else if (tau < 2 * dt)
-            out_.warning(
-                s.value_at,
-                fmt::format("{} = {} s is less than two cycles of {} s, so the cell cannot follow it", p.name,
-                            to_text(tau), to_text(dt)),
-                fmt::format("set cylesPerSecond to at least {:.6g}", std::ceil(2 / tau)));
     }
 
     /// Collects values outside of the usual range: a system may have hundreds of them.
@@ -611,6 +608,18 @@ class Validator {
 };
 
 }  // namespace
+
+void check_time_constant(const std::string& name, std::string_view doc, double tau, double dt,
+                         const Location& at, Diagnostics& out) {
+    if (!(tau > 0))
+        out.error(at, fmt::format("{} = {} is not possible", name, to_text(tau)),
+                  fmt::format("{}{} is a time constant: more than 0 s", name, in_brackets(doc)));
+    else if (tau < 2 * dt)
+        out.warning(at,
+                    fmt::format("{} = {} s is less than two cycles of {} s, so the cell cannot follow it",
+                                name, to_text(tau), to_text(dt)),
+                    fmt::format("set cylesPerSecond to at least {:.6g}", std::ceil(2 / tau)));
+}
 
 void validate(const System& system, const Registry& registry, Diagnostics& diagnostics,
               Environment* environment) {

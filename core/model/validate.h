@@ -1,6 +1,10 @@
 // Checks a system against the types, before any connection is built.
 #pragma once
 
+#include <string>
+#include <string_view>
+#include <vector>
+
 #include "core/model/system.h"
 #include "core/types/registry.h"
 
@@ -12,6 +16,10 @@ namespace forage::model {
 /// Modules check themselves against `environment`, which may be null.
 void validate(const System& system, const Registry& registry, Diagnostics& diagnostics,
               Environment* environment = nullptr);
+
+/// Reports a time constant (s) that is not positive, or too short for cycles of `dt` s.
+void check_time_constant(const std::string& name, std::string_view doc, double tau, double dt,
+                         const Location& at, Diagnostics& diagnostics);
 
 /// Sets the parameters of `object`, an instance of a type with `parameters`, from `settings`. Parameters
 /// without a setting keep their defaults, and values that validate() reports are ignored. A relative path

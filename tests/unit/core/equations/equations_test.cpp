@@ -102,11 +102,12 @@ TEST_CASE("a rule of synapses sees the last cycle and this one at both ends") {
     CHECK(std::ranges::count(kinds, Read::Kind::post_now) == 1);
 }
 
+using Mistakes = std::vector<std::string>;
+
 TEST_CASE("mistakes are reported at their places, and nothing that follows from them") {
     const auto said = [](const std::string& text, const Vocabulary& names = {}) {
         return compiled(text, names).mistakes;
     };
-    using Mistakes = std::vector<std::string>;
     CHECK(said("x' = tua; y = x' + tua2; output x") ==
           Mistakes{"5: there is no 'tua' in these equations", "19: there is no 'tua2' in these equations"});
     CHECK(said("u = v'; v' = exc; output v") == Mistakes{"4: v' is not computed yet"});
@@ -116,6 +117,12 @@ TEST_CASE("mistakes are reported at their places, and nothing that follows from 
     CHECK(said("dt = 1; output x = exc") == Mistakes{"0: 'dt' is a time and cannot be computed"});
     CHECK(said("tau = 1; output x = tau", {false, {"tau"}, {}, {}}) ==
           Mistakes{"0: 'tau' is a constant of the type and cannot be computed"});
+    CHECK(said("y = u; u = exc; output x = y") == Mistakes{"4: 'u' is computed below"});
+    CHECK(said("when exc > 1: x' = 1; n' = 2; output x") == Mistakes{"22: after 'when', ',' divides the changes"});
+    CHECK(said("x' = 1; when' = 2; output x").size() == 1);
+    CHECK(said("dv/dt = exc : volt; output v").size() == 1);
+    CHECK(said("v' = pre.v; output v", {true, {}, {}, {}}).size() == 1);
+    CHECK(said("input push; input push; output x = push") == Mistakes{"18: there is already an input 'push'"});
     CHECK(said("x' = exc") == Mistakes{"0: the equations name no output"});
     CHECK(said("output x = 1; output y = 2") == Mistakes{"21: 'x' is the output already"});
     CHECK(said("exc; output x = 1") == Mistakes{"0: this is no equation"});
@@ -125,6 +132,35 @@ TEST_CASE("mistakes are reported at their places, and nothing that follows from 
     CHECK(said("").size() == 1);
     CHECK(said("w' = normal(); output w", {true, {}, {}, {}}) ==
           Mistakes{"5: synapses draw no random numbers"});
+}
+
+TEST_CASE("equations that are probably not meant give warnings") {
+    const auto warned = [](const std::string& text, bool synapse = false) {
+        Mistakes out;
+        const auto c = compiled(text, {synapse, {"tau"}, {}, {}});
+        CHECK(c.mistakes.empty());
+        for (const auto& w : c.compiled.warnings) out.push_back(std::to_string(w.at) + ": " + w.what());
+        return out;
+    };
+    const Mistakes derivative{"0: x' is the value of x after this cycle, not its derivative"};
+    CHECK(warned("x' = (exc - x) / tau; output x") == derivative);
+    CHECK(warned("x' = -x / tau + exc; output x") == derivative);
+    CHECK(warned("x' = x + dt * (exc - x) / tau; output x").empty());
+    CHECK(warned("x' = x + (exc - x) / tau; output x").empty());
+    CHECK(warned("x' = x * (1 - 1 / tau) + exc; output x").empty());
+    CHECK(warned("u = exc; output x = tau") == Mistakes{"0: nothing uses 'u'"});
+    CHECK(warned("w' = w + tau * pre; output psp = w' * pre", true) ==
+          Mistakes{"38: this output arrives a cycle later than that of other types"});
+    CHECK(warned("w' = w + tau * pre; output psp = w' * pre'", true).empty());
+}
+
+TEST_CASE("constants by which a derivative relaxes are time constants") {
+    const Vocabulary names{false, {"tau", "C"}, {}, {}};
+    CHECK(compiled("dx/dt = (exc - x) / tau; output x", names).compiled.time_constants ==
+          std::vector<std::string>{"tau"});
+    CHECK(compiled("dx/dt = exc - x / tau; output x", names).compiled.time_constants ==
+          std::vector<std::string>{"tau"});
+    CHECK(compiled("dx/dt = exc / C; output x", names).compiled.time_constants.empty());
 }
 
 }  // namespace
