@@ -178,24 +178,6 @@ class Builder {
         return out;
     }
 
-    /// The place of a byte of the equations, whose pieces have a line break between them.
-    static Location place(const model::TypeDeclaration& d, std::size_t at) {
-        for (const auto& piece : d.equations) {
-            if (at > piece.text.size()) {
-                at -= piece.text.size() + 1;
-                continue;
-            }
-            Location out = piece.at;
-            std::size_t line = 0;  // where it begins
-            for (std::size_t i = 0; i < at; ++i)
-                if (piece.text[i] == '\n') ++out.line, out.column = 1, line = i + 1;
-            for (std::size_t i = line; i < at; ++i)  // as the file has it
-                out.column += piece.text[i] == '<' ? 4 : piece.text[i] == '&' ? 5 : 1;
-            return out;
-        }
-        return d.at;
-    }
-
     double value(const std::string& text, const Location& at, const std::string& name) {
         try {
             if (const auto v = in_braces(text) ? constants_.value(text, nullptr) : parse_number<double>(text))
@@ -332,6 +314,23 @@ class Builder {
 };
 
 }  // namespace
+
+Location place(const model::TypeDeclaration& d, std::size_t at) {
+    for (const auto& piece : d.equations) {
+        if (at > piece.text.size()) {
+            at -= piece.text.size() + 1;
+            continue;
+        }
+        Location out = piece.at;
+        std::size_t line = 0;  // where it begins
+        for (std::size_t i = 0; i < at; ++i)
+            if (piece.text[i] == '\n') ++out.line, out.column = 1, line = i + 1;
+        for (std::size_t i = line; i < at; ++i)  // as the file has it
+            out.column += piece.text[i] == '<' ? 4 : piece.text[i] == '&' ? 5 : 1;
+        return out;
+    }
+    return d.at;
+}
 
 void add_types(const model::System& system, Registry& registry, Diagnostics& diagnostics) {
     registry.remove_declared();

@@ -1,7 +1,6 @@
 // Arithmetic in files: a text as a tree, and its value.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -9,6 +8,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "core/base/power.h"
 
 namespace forage {
 
@@ -19,11 +20,6 @@ struct FormulaError : std::invalid_argument {
     std::size_t at;    ///< the first wrong byte of the text, from 0
     std::string hint;  ///< may be empty
 };
-
-/// The power `base`^`exponent`. Squares and cubes are products.
-inline double power(double base, double exponent) {
-    return exponent == 2 ? base * base : exponent == 3 ? base * base * base : std::pow(base, exponent);
-}
 
 /// An expression of numbers, names, operators and functions.
 class Formula {

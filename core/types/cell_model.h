@@ -11,6 +11,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "core/base/power.h"
 #include "core/base/simd.h"
 #include "core/types/neuron_columns.h"
 #include "core/types/numbers.h"

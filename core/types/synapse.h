@@ -120,6 +120,13 @@ class SynapseSpec {
     SynapseSpec& feedback(std::string name, std::string label, bool required = true) {
         return type_.feedback.push_back({std::move(name), std::move(label), required}), *this;
     }
+    /// Declares a member of Target that is a state of the target's neuron, or its output when `state` is
+    /// empty: its value in this cycle, or `ago` cycles ago. Files need not name it.
+    SynapseSpec& target(double Target::*member, std::string state, int ago) {
+        target_.declare(member, type_.feedback.size());
+        const std::string name = "post" + (state.empty() ? "" : "." + state) + (ago == 0 ? "'" : "");
+        return type_.feedback.push_back({name, name, false, true, std::move(state), ago}), *this;
+    }
     /// Promises that update() leaves a synapse as it is and that output() is 0 when its source is silent (pre
     /// is 0) and all other numbers are finite. The engine then skips such synapses, which is many times
     /// faster where activity is sparse.

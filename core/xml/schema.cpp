@@ -172,7 +172,8 @@ class Schema : Printer {
         choice_of(names(shipped));
         close(), close(), close();
         open("interleave");
-        open("zeroOrMore"), reference("Parameter"), close();
+        for (const char* child : {"Parameter", "Initial"})
+            open("zeroOrMore"), reference(child), close();
         open("optional"), reference("Note"), close();
         close(), close();
     }

@@ -21,21 +21,12 @@ MODELS = {
     "bcm": {"inputs": {"Net/In": range(1, 5)}, "sources": {"Unit.c": "Net/Unit:c", "Unit.theta": "Net/Unit:theta", "In_Unit.w": "In to Unit:weight"}},
     "echo_state": {"inputs": {"Net/Input": range(1, 2)}, "sources": {"Readout.y": "Net/Readout:y", "Res.x": "Net/Res:x"}},
     "hodgkin_huxley": {"inputs": {"Net/Current": range(1, 2)}, "sources": {f"Axon.{state}": f"Net/Axon:{state}" for state in "Vmhn"}},
-    "homeostasis": {
-        "inputs": {"Net/In": range(1, 11)},
-        "sources": {"Cell.a": "Net/Cell:a", "Cell.out": "Net/Cell:y", "In_Cell.w": "In to Cell:weight"},
-    },
+    "homeostasis": {"inputs": {"Net/In": range(1, 11)}, "sources": {"Cell.a": "Net/Cell:a", "Cell.out": "Net/Cell:y", "In_Cell.w": "In to Cell:weight"}},
     "hopfield": {"inputs": {}, "sources": {f"Net{i}.s": f"Net/Net{i}:s" for i in range(7)}},
-    "izhikevich": {
-        "inputs": {"Net/Current": range(1, 21)},
-        "sources": {"Cells.v": "Net/Cells:v", "Cells.u": "Net/Cells:u", "Cells.out": "Net/Cells:spike"},
-    },
+    "izhikevich": {"inputs": {"Net/Current": range(1, 21)}, "sources": {"Cells.v": "Net/Cells:v", "Cells.u": "Net/Cells:u", "Cells.out": "Net/Cells:spike"}},
     "lca": {"inputs": {"Net/Evidence": range(1, 5), "Net/Noise": range(5, 9)}, "sources": {"Acc.x": "Net/Acc:x"}},
     "oja": {"inputs": {"Net/In": range(1, 9)}, "sources": {"Unit.y": "Net/Unit:y", "In_Unit.w": "In to Unit:weight"}},
-    "ring_attractor": {
-        "inputs": {"Net/Cue": range(1, 2), "Net/Velocity": range(2, 3)},
-        "sources": {"Ring.r": "Net/Ring:r", "Shift.p": "Net/Shift:p"},
-    },
+    "ring_attractor": {"inputs": {"Net/Cue": range(1, 2), "Net/Velocity": range(2, 3)}, "sources": {"Ring.r": "Net/Ring:r", "Shift.p": "Net/Shift:p"}},
     "td_conditioning": {
         "inputs": {"Net/CS": range(1, 9), "Net/US": range(9, 10)},
         "sources": {"Pred.V": "Net/Pred:V", "Pred.err": "Net/Pred:err", "CS_Pred.w": "CS to Pred:weight", "CS_Pred.e": "CS to Pred:trace"},

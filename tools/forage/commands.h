@@ -34,6 +34,7 @@ struct ConvertOptions {
     std::vector<std::string> imports;  ///< process files to add
     /// Name or id of the process to write as a file of its own; empty: the whole system.
     std::string extract;
+    std::string as_plugin;  ///< name of a declared type to write as the source of a plugin; empty: none
     std::vector<std::string> plugins;
     bool original = false;  ///< whether to write everything that the original requires
     bool embed = false, lenient = false;

@@ -133,7 +133,7 @@ int program(int argc, char** argv) {
     auto& types_command = *app.add_subcommand(
         "types",
         "List the neuron, synapse and module types, or describe one, or those that a system declares");
-    types_command.footer("Examples:\n  forage types neuronLinearThreshold\n  forage types model.iqr");
+    types_command.footer("Example:\n  forage types neuronLinearThreshold\n  forage types model.iqr");
     types_command.add_option("NAME", type, "The type to describe, or a system file (.iqr)")->option_text(" ");
     auto& schema_command =
         *app.add_subcommand("schema", "Print a RELAX NG schema of system files, for editors");

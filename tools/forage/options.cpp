@@ -273,11 +273,13 @@ void add_convert(CLI::App& app, ConvertOptions& o) {
         *app.add_subcommand("convert", "Read a system or process file and write it in the standard layout");
     convert.footer(
         "Example:\n"
-        "  forage convert systems/reactive_foraging.iqr bug.iqrProcess --extract Bug");
+        "  forage convert systems/reactive_foraging.iqr bug.iqrProcess --extract Bug\n"
+        "  forage convert systems/models/oja.iqr oja.cpp --as-plugin oja");
     convert.add_option("IN", o.input, "File to read (.iqr or .iqrProcess)")->required()->option_text("FILE");
     convert
-        .add_option("OUT", o.output,
-                    "File to write (.iqr or .iqrProcess); may be the same, or - to print a system")
+        .add_option(
+            "OUT", o.output,
+            "File to write (.iqr or .iqrProcess; .cpp with --as-plugin); may be the same, or - to print it")
         ->required()
         ->option_text("FILE");
     repeated(convert.add_option("--import", o.imports,
@@ -286,6 +288,10 @@ void add_convert(CLI::App& app, ConvertOptions& o) {
     convert
         .add_option("--extract", o.extract, "Write this process alone, with the connections among its groups")
         ->option_text("PROCESS");
+    convert
+        .add_option("--as-plugin", o.as_plugin,
+                    "Write this type of the system as the source of a plugin that computes the same")
+        ->option_text("TYPE");
     add_plugins(convert, o.plugins);
     convert.add_flag("--embed", o.embed, "Write the content of linked processes instead of links");
     convert.add_flag("--original", o.original,
