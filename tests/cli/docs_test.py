@@ -9,6 +9,7 @@ A comment stands before each paragraph, table or picture that a command makes:
 - In a table of an experiment, the first columns are the swept parameters and the others the measures, in the order of the experiment file.
 - In a table under a command with {}, the first column is what stands for {}, and the others are columns of trials.csv.
 - In a paragraph, `label  text` is a line of the summary. "0.83 +- 0.03" are the measures of an experiment without sweeps, in their order.
+- A block of `text` is what the last of the commands prints.
 
 What follows a number in a cell is a remark, which stays. The results of experiments are kept in tests/data/experiments: tables are compared with
 these. Experiments run for one seed and one value of each sweep; with FORAGE_WHOLE set, wholly. With FORAGE_REWRITE_EXPECTATIONS set, they run
@@ -43,7 +44,8 @@ REMEDY = "rewrite it with ./tools/update-docs"
 
 COMMANDS = re.compile(r"^```sh\n(.*?)^```", re.MULTILINE | re.DOTALL)
 MADE = re.compile(r"^<!-- made by: (?P<command>.*?)(?: > (?P<files>[^>]*))? -->\n(?P<block>.*?)(?=\n\n|\n?\Z)", re.MULTILINE | re.DOTALL)
-FILE = re.compile(r"^Save this as `([^`]+)`:\n\n```xml\n(.*?)^```", re.MULTILINE | re.DOTALL)
+FILE = re.compile(r"^Save this as `([^`]+)`:\n\n```(?:xml|csv)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+TOOLS = ("cut", "gzip", "head", "tail")  # of the shell, beside forage
 NUMBER = r"\d(?:[\d .]*\d)?"
 VALUE = re.compile(rf"(?:never|-?{NUMBER}(?: \+- {NUMBER})?(?: \(in \d+ of \d+ runs\))?)")
 EXPERIMENT = re.compile(r"forage (?:tutorial (\d\.\d)|experiment (\S+))")
@@ -135,7 +137,10 @@ class Page:
         if command in self.said:
             return
         self.said[command] = ""
-        self.test.assertTrue(command.startswith("forage "), command)
+        self.test.assertIn(command.split()[0], ("forage", *TOOLS), command)
+        if command.startswith(TOOLS):
+            self.said[command] = subprocess.run(command, cwd=self.here, shell=True, check=True, stdout=subprocess.PIPE, text=True).stdout
+            return
         words = shlex.split(command)[1:]
         if re.search("DAC|original_", command):
             if not ORIGINAL.exists():
@@ -180,6 +185,8 @@ class Page:
             return self.trials_table(commands[0], block)
         for command in commands:
             self.run(command)
+        if block.startswith("```text\n"):
+            return f"```text\n{self.said[commands[-1]]}```"
         block = re.sub(r"`([a-z][a-z ]*?)  [^`]*`", lambda m: self.summary_line(commands, m), block)
         experiments = [Experiment(c, self.here) for c in commands if EXPERIMENT.match(c)]
         if experiments and block.startswith("|"):
