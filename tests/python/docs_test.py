@@ -50,3 +50,28 @@ def test_brian2_counts_the_same_spikes(tmp_path, monkeypatch):
     names = {}
     exec(compile(brian, "brian2", "exec"), names)
     assert f"```text\n{[int(count) for count in names['counts']]}\n```" in text
+
+
+def programs(page, language):
+    return re.findall(rf"^```{language}\n(.*?)^```$", page, re.MULTILINE | re.DOTALL)
+
+
+def run_program(text, names, here, monkeypatch):
+    """What a program prints."""
+    monkeypatch.chdir(here)
+    with contextlib.redirect_stdout(io.StringIO()) as out:
+        exec(compile(text, "program", "exec"), names)
+    return out.getvalue()
+
+
+@pytest.mark.parametrize("model", [0, 1, 2])
+def test_models_print_the_same_numbers_in_brian2(model, tmp_path, monkeypatch):
+    page = (PROJECT / "docs/how-to/same-model-elsewhere.md").read_text()
+    for name, text in re.findall(r"Save this as `([^`]+)`:\n\n```(?:xml|csv)\n(.*?)^```", page, re.MULTILINE | re.DOTALL):
+        (tmp_path / name).write_text(text)
+    expected = programs(page, "text")[model]
+    assert run_program("import forage\n" + programs(page, "python")[model], {}, tmp_path, monkeypatch) == expected
+    brian2 = pytest.importorskip("brian2", reason="needs python3-brian")
+    brian2.start_scope()
+    monkeypatch.setattr(brian2.prefs.codegen, "target", "numpy")
+    assert run_program(programs(page, "py")[model], {}, tmp_path, monkeypatch) == expected
