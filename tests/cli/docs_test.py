@@ -123,7 +123,8 @@ class Page:
     def __init__(self, test, page, here):
         self.test, self.here, self.said, self.blocks = test, here, {}, []
         self.page, whole, self.text = page_text(page)
-        (here / "systems").symlink_to(PROJECT / "systems")
+        for folder in ("systems", "tests"):
+            (here / folder).symlink_to(PROJECT / folder)
         for name, text in FILE.findall(whole):
             (here / name).write_text(text)
         for block in COMMANDS.finditer(self.text):
