@@ -40,9 +40,12 @@ class Program {
     void run(std::span<const double> scalars, std::span<const double* const> read,
              std::span<double* const> written, Index cells) const;
 
-    /// One operation on the rows at `to`, `a`, `b` and `c` of a table of rows.
+    /// One operation on the rows at `to`, `a`, `b` and `c` of a table of rows: `op`, or a * b + c.
     struct Instruction {
+        enum class Scalar : std::uint8_t { none, a, b };
         Op op;
+        bool multiply_add;
+        Scalar scalar;  ///< an operand whose row is a single number
         std::uint16_t to, a, b, c;
     };
 
@@ -62,15 +65,16 @@ class Program {
     std::map<std::tuple<Kind, Op, Value, Value, Value, std::uint64_t>, Value> known_;
     std::vector<Value> written_;
 
-    // The plan. Row r of run()'s table is: a column that is read, a scalar in all cells, or a block of
-    // memory.
-    struct Filled {
+    // The plan. Row r of run()'s table is: a column that is read or written, a scalar, a block with a scalar
+    // in all cells, or a block of memory.
+    struct Scalar {
         std::uint16_t row;
         Value value;
     };
     std::vector<Instruction> instructions_;
-    std::vector<Filled> filled_;      ///< rows with a scalar in all cells
+    std::vector<Scalar> single_, filled_;
     std::vector<std::uint16_t> row_;  ///< by value
+    std::vector<bool> copied_;        ///< of what is written: not computed in its place
     std::size_t columns_ = 0, rows_ = 0;
 };
 
