@@ -207,8 +207,8 @@ class Writer {
         if (lines.find("old.") != lines.npos)
             lines = fmt::format("        const {} old = now;\n", synapse_ ? "Synapse" : "Cell") + lines;
         if (!synapse_)
-            return fmt::format("    void update(Cell& now, const forage::Input& in) const {{\n{}    }}\n",
-                               lines);
+            return fmt::format("    void update(Cell& now, const forage::Input&{}) const {{\n{}    }}\n",
+                               lines.find("in.") != lines.npos ? " in" : "", lines);
         return function("void update(Synapse& now", lines, "\n", "    ") +
                function("double output(const Synapse& now", "return " + result + ";", " ", " ");
     }
