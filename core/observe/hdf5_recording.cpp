@@ -150,10 +150,13 @@ class SetFinder {
     void visit(hid_t group, const std::string& path, int depth) {
         if (depth > max_depth)
             throw std::runtime_error(fmt::format("its groups are nested more than {} deep", max_depth));
-        std::vector<std::string> names;
+        Links links;
         // Links are visited instead of objects because this function has the same form in HDF5 1.10 and in
         // later versions.
-        H5Literate(group, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, note_link, &names);
+        H5Literate(group, H5_INDEX_NAME, H5_ITER_NATIVE, nullptr, note_link, &links);
+        const auto& names = links.names;
+        if (other_link_.empty() && !links.other.empty())
+            other_link_ = fmt::format("'{}' is a link to another {}", path + links.other, links.place);
         if (names.size() > links_left_) throw std::runtime_error("it claims more groups than it can hold");
         links_left_ -= names.size();
         for (const auto& name : names) {
@@ -172,16 +175,29 @@ class SetFinder {
     }
     const std::vector<std::string>& places() const { return places_; }
     bool has_cycles() const { return has_cycles_; }
+    /// The first link that was not followed, in words; empty when there is none.
+    const std::string& other_link() const { return other_link_; }
 
   private:
-    static herr_t note_link(hid_t, const char* name, const H5L_info_t* link, void* names) {
-        if (link->type == H5L_TYPE_HARD) static_cast<std::vector<std::string>*>(names)->emplace_back(name);
+    /// The links in a group.
+    struct Links {
+        std::vector<std::string> names;  ///< those of its own objects
+        std::string other;               ///< the first other one
+        const char* place = nullptr;     ///< where that leads
+    };
+    static herr_t note_link(hid_t, const char* name, const H5L_info_t* link, void* found) {
+        auto& links = *static_cast<Links*>(found);
+        if (link->type == H5L_TYPE_HARD)
+            links.names.emplace_back(name);
+        else if (links.other.empty())
+            links.other = name, links.place = link->type == H5L_TYPE_SOFT ? "place" : "file";
         return 0;
     }
 
     std::uint64_t links_left_;
     std::vector<std::string> places_;
     bool has_cycles_ = false;
+    std::string other_link_;
 };
 
 }  // namespace
@@ -194,6 +210,8 @@ std::vector<std::unique_ptr<Recording>> open_hdf5_recording(const std::string& p
     const auto file = std::make_shared<Hdf5Handle>(id, H5Fclose, "read it as HDF5" + hdf5_lock_hint());
     SetFinder sets(std::filesystem::file_size(path));
     sets.visit(*file, "/", 0);
+    if ((!sets.has_cycles() || sets.places().empty()) && !sets.other_link().empty())
+        throw std::runtime_error(sets.other_link() + "; Forage does not follow it");
     if (!sets.has_cycles() && !sets.places().empty()) throw std::runtime_error("it has no data set 'cycle'");
     std::vector<std::unique_ptr<Recording>> out;
     double claimed = 0;

@@ -323,7 +323,13 @@ class Claims(Cli):
             del file["cycle"]
             file["cycle"] = h5py.ExternalLink("other.h5", "cycle")
 
-        self.refused(cycles, "it has no data set 'cycle'")
+        self.refused(cycles, "'/cycle' is a link to another file; Forage does not follow it")
+
+        def everything(file):
+            del file["P"]
+            file["P"] = h5py.SoftLink("/elsewhere")
+
+        self.refused(everything, "'/P' is a link to another place; Forage does not follow it")
 
         def linked(file):
             file["P/B"] = h5py.ExternalLink("other.h5", "secret")
