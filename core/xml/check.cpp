@@ -293,8 +293,12 @@ class Checker {
 
     void numbers(const Value& v, const Subject& subject) {
         const auto list = v.words();
-        for (const Value& word : list)
-            if (!number(word, subject)) return;
+        const int errors_before = out_.errors();
+        for (const Value& word : list) {
+            number(word, subject);
+            if (out_.errors() > errors_before && subject.rule.most <= 1) return;  // "five minutes"
+        }
+        if (out_.errors() > errors_before) return;
         if (list.size() < subject.rule.least || list.size() > subject.rule.most)
             out_.error(v.element.where(),
                        fmt::format("<{}> has {} numbers instead of {}", subject.name, list.size(),
@@ -303,14 +307,13 @@ class Checker {
     }
 
     /// Checks that a word is a number that the rule allows.
-    bool number(const Value& v, const Subject& subject) {
+    void number(const Value& v, const Subject& subject) {
         const std::string_view word = v.view;
         const ValueRule& rule = subject.rule;
-        if (rule.formula && in_braces(word)) return true;  // model::compute() checks it
+        if (rule.formula && in_braces(word)) return;  // model::compute() checks it
         const bool whole = rule.kind == ValueKind::whole;
         const auto wrong = [&](std::string_view what, std::string hint) {
             out_.error(v.where(), fmt::format("{} = {}", subject.label(), what), std::move(hint));
-            return false;
         };
         if (in_braces(word) && format_.find("Constant"))
             return wrong(fmt::format("'{}' is a formula, which cannot stand here", word), "write the number");
@@ -324,7 +327,6 @@ class Checker {
         if (whole && !format_.open && !parse_number<int>(word))  // 1e2, 3.0
             return wrong(fmt::format("'{}' is not written as a whole number", word),
                          fmt::format("write {}", to_text(*number)));
-        return true;
     }
 
     static constexpr int max_errors = 100'000;  // further ones would not be printed

@@ -65,7 +65,9 @@ TEST_CASE("A malformed value gives an error at its line") {
     const std::string target = "<pose>0 2.5 0 0 0 0</pose>";
     const auto said = [&](const std::string& instead) { return diagnostics_of(edited(target, instead)); };
     const std::string pose = " | pose: six numbers x y z roll pitch yaw, in m and rad\n";
-    CHECK(said("<pose>a b c</pose>") == "71: error: <pose> = 'a' is not a number" + pose);
+    const std::string wrong = "71: error: <pose> = '";
+    CHECK(said("<pose>a b c</pose>") == wrong + "a' is not a number" + pose + wrong + "b' is not a number" +
+                                            pose + wrong + "c' is not a number" + pose);
     CHECK(said("<pose>1 2 3</pose>") == "71: error: <pose> has 3 numbers instead of 6" + pose);
     CHECK(said("<static>maybe</static>") ==
           "71: error: <static> = 'maybe' is not true or false | static: true or false\n");
