@@ -221,10 +221,12 @@ std::vector<std::string> parameter_names(const System& system, const Registry& r
 
 std::optional<Assignment> parse_assignment(const System& system, const Registry& registry,
                                            std::string_view text, std::string_view what,
-                                           Diagnostics& diagnostics, Location at) {
-    const expression::Context context{text, what, diagnostics, at};
+                                           Diagnostics& diagnostics, Location at, Location value_at) {
+    const expression::Context context{text, what, diagnostics, at, value_at};
+    if (!value_at.file) value_at = at;
     if (auto constant = resolve_constant(system, text.substr(0, text.find('=')), context);
         constant && text.find('=') != text.npos) {
+        constant->at = value_at;
         System changed = system;
         Diagnostics found;
         set_constant(changed, *constant, found);
@@ -267,9 +269,9 @@ std::optional<Assignment> parse_assignment(const System& system, const Registry&
     out->value = *parsed;
     if (!out->parameter) return out;
     if (const auto& range = out->parameter->range; outside(*parsed, range))
-        diagnostics.warning(at, fmt::format("{} '{}': outside the usual range {} to {}", what, text,
-                                            to_text(range->low), to_text(range->high)));
-    if (is_path) out->value = resolved(value.text, at);
+        diagnostics.warning(value_at, fmt::format("{} '{}': outside the usual range {} to {}", what, text,
+                                                  to_text(range->low), to_text(range->high)));
+    if (is_path) out->value = resolved(value.text, value_at);
     return out;
 }
 
@@ -349,9 +351,10 @@ void set_as_in(const System& other, System& system, const Assignment& a) {
 }
 
 void set(System& system, const Registry& registry, std::string_view assignment, Diagnostics& diagnostics,
-         Location at) {
+         Location at, Location value_at) {
     const std::string_view what = at.file ? "set" : "--set";
-    if (const auto a = parse_assignment(system, registry, assignment, what, diagnostics, std::move(at)))
+    if (const auto a = parse_assignment(system, registry, assignment, what, diagnostics, std::move(at),
+                                        std::move(value_at)))
         set(system, *a);
 }
 

@@ -33,11 +33,12 @@ const std::vector<Parameter>* parameters_of(const Registry& registry, Assignment
 /// group ("Process/Group": a parameter of its neuron), a process
 /// ("Process": a parameter of its module, or enableModule) or a connection (its name or id: a parameter of
 /// its synapse). Reports unknown names, with those that exist, and wrong values, which are checked like those
-/// of a file. `what` says where the text is from, such as "--set". Empty when there was an error. The result
-/// refers to `registry`.
+/// of a file. `what` says where the text is from, such as "--set"; `at` and `value_at` are as in Expression.
+/// Empty when there was an error. The result refers to `registry`.
 std::optional<Assignment> parse_assignment(const System& system, const Registry& registry,
                                            std::string_view text, std::string_view what,
-                                           Diagnostics& diagnostics, Location at = {});
+                                           Diagnostics& diagnostics, Location at = {},
+                                           Location value_at = {});
 
 /// The parameter that "WHERE.parameter" names, without a value. Reports mistakes like parse_assignment().
 std::optional<Assignment> find_parameter(const System& system, const Registry& registry,
@@ -68,6 +69,6 @@ void move_files(System& system, const std::string& from, const std::string& to, 
 
 /// Reads an assignment from the command line (--set) or from a file, and applies it to the system.
 void set(System& system, const Registry& registry, std::string_view assignment, Diagnostics& diagnostics,
-         Location at = {});
+         Location at = {}, Location value_at = {});
 
 }  // namespace forage::model

@@ -377,8 +377,16 @@ std::string Mistake::described(std::string_view text) const {
     return fmt::format("{}: {}{}{}", quoted(text, at), what(), hint.empty() ? "" : "; ", hint);
 }
 
+Location Context::place(std::size_t offset) const {
+    if (!at.file) return at;
+    const auto equals = value_at.file ? find_unquoted(text, "=") : std::vector<std::size_t>();
+    if (equals.empty() || offset <= equals.front()) return shifted(at, text, offset);
+    const auto value = equals.front() + 1;
+    return shifted(value_at, text.substr(value), offset - value);
+}
+
 void Context::error(std::size_t offset, std::string message, std::string hint) const {
-    diagnostics.error(at.file ? shifted(at, text, offset) : at,
+    diagnostics.error(place(offset),
                       fmt::format("{} {}: {}", what, quoted(text, at.file ? 0 : offset), message),
                       std::move(hint));
 }

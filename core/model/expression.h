@@ -19,7 +19,8 @@ namespace forage::model {
 /// A text in the language of expressions, and where it is written.
 struct Expression {
     std::string text;
-    Location at{};  ///< without a file: the command line
+    Location at{};        ///< without a file: the command line
+    Location value_at{};  ///< of an assignment whose value stands elsewhere in the file
     bool empty() const { return text.empty(); }
 };
 
@@ -65,8 +66,11 @@ struct Context {
     std::string_view text;  ///< the whole expression
     std::string_view what;  ///< its purpose, which begins the messages: "--record", "measure"
     Diagnostics& diagnostics;
-    Location at{};  ///< location of the first byte; without a file, the command line
+    Location at{};        ///< location of the first byte; without a file, the command line
+    Location value_at{};  ///< as in model::Expression
 
+    /// Where the byte `offset` of the text is.
+    Location place(std::size_t offset) const;
     /// Reports a mistake at the byte `offset` of the text.
     void error(std::size_t offset, std::string message, std::string hint = {}) const;
     /// Parses the text. Reports a mistake, and returns nothing then.

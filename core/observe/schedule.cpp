@@ -50,7 +50,8 @@ std::unique_ptr<Schedule> make_schedule(const std::vector<model::ScheduledChange
         auto condition = parse_condition(layout, trials, when.text, option, diagnostics, when.at);
         std::optional<std::variant<model::Assignment, Schedule::Action>> change;
         Diagnostics unread;  // of a text that is another kind of change
-        auto assignment = model::parse_assignment(system, registry, what.text, option, unread, what.at);
+        auto assignment =
+            model::parse_assignment(system, registry, what.text, option, unread, what.at, what.value_at);
         auto action = assignment || !read_action ? std::nullopt : read_action(what, option, diagnostics);
         if (!assignment && !action)
             for (const auto& d : unread.all()) diagnostics.add(d);

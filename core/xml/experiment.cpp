@@ -64,7 +64,7 @@ class ExperimentReader {
     static model::Expression written(const Value& v) { return {v.text(), v.where()}; }
 
     static model::Expression assignment(const Element& e) {
-        return {e["parameter"].text() + "=" + e["value"].text(), e["parameter"].where()};
+        return {e["parameter"].text() + "=" + e["value"].text(), e["parameter"].where(), e["value"].where()};
     }
 
     /// Whether an element has an attribute that check() has refused, which may be any other one with a
@@ -121,7 +121,9 @@ class ExperimentReader {
             out_.error(e["list"].where(), "there are no seeds in the list", "for example list=\"1 2 3\"");
         std::set<int> seen;
         bool reported = false;
-        for (const auto& [word, where] : list) {
+        for (const auto& entry : list) {
+            const std::string& word = entry.text;
+            const Location& where = entry.at;
             const auto seed = parse_number<int>(word);
             if (!seed || *seed < 0)
                 out_.error(where, fmt::format("'{}' is not a seed", word),

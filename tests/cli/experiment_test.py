@@ -690,7 +690,7 @@ class Mistakes(Experiment):
         said = self.forage("experiment", "robot.xml", status=2).stderr
         for place, message in (
             ("5:20", "a comparison is missing behind 'trail 3'"),
-            ("5:33", "'x' is not a number"),
+            ("5:61", "'x' is not a number"),
             ("6:19", "there is no group 'Bug/Ligth'"),
             ("6:43", "there is no group 'Bug/Mothor'"),
             ("6:74", "there is no plot 'drawing'"),

@@ -229,17 +229,18 @@ void FilmRecorder::finish(RunView&, ResultFiles& files) {
 std::vector<PlotSpec> add_plots(const std::vector<model::Expression>& plots, Run& run, Format format,
                                 const std::string& title, Diagnostics& diagnostics) {
     std::vector<PlotSpec> trajectories;
-    for (const auto& [text, at] : plots) {
+    for (const auto& plot : plots) {
+        const Location& at = plot.at;
         const std::string option = at.file ? "plot" : "--plot";
-        auto spec = parse_plot(text, option, diagnostics, at);
+        auto spec = parse_plot(plot.text, option, diagnostics, at);
         if (!spec) continue;
         if (spec->kind == PlotSpec::Kind::trajectory) {
             if (!run.environment())
                 diagnostics.error(at, "a trajectory needs a world", "add --world FILE.world");
             trajectories.push_back(std::move(*spec));
         } else if (spec->of_results()) {
-            diagnostics.error(at, fmt::format("'{}' is drawn from results", text),
-                              fmt::format("'forage plot DIR {}' draws it afterwards", text));
+            diagnostics.error(at, fmt::format("'{}' is drawn from results", plot.text),
+                              fmt::format("'forage plot DIR {}' draws it afterwards", plot.text));
         } else if (spec->of_cells()) {
             auto source = observe::find_source(run.layout(), spec->source(), option, diagnostics, at);
             if (source)

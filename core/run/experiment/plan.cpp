@@ -110,7 +110,7 @@ std::vector<model::Expression> RunPlan::settings(std::size_t combination) const 
     for (const auto& sweep : sweeps_)
         if (sweep.files.empty()) {
             const auto& value = sweep.values[chosen(sweep, combination)];
-            out.push_back({sweep.parameter.text + "=" + value.text, value.at});
+            out.push_back({sweep.parameter.text + "=" + value.text, sweep.parameter.at, value.at});
         }
     return out;
 }

@@ -17,17 +17,25 @@
 namespace forage {
 namespace {
 
-/// Checks one value of a sweep instead of the first one.
-void check_value(const model::Sweep& sweep, const model::Expression& value, const Run& run,
-                 Diagnostics& diagnostics) {
+/// Whether `all` has the same message at the same place.
+bool contains(const Diagnostics& all, const Diagnostic& d) {
+    return std::any_of(all.all().begin(), all.all().end(), [&](const Diagnostic& other) {
+        return other.message == d.message && other.where.file == d.where.file &&
+               other.where.line == d.where.line && other.where.column == d.where.column;
+    });
+}
+
+/// Checks one value of a sweep instead of the first one, in a system whose own mistakes are known.
+void check_value(const model::Sweep& sweep, const model::Expression& value, const model::System& system,
+                 const Run& run, const Diagnostics& known, Diagnostics& diagnostics) {
     const auto assignment =
-        model::parse_assignment(run.system(), run.registry(), sweep.parameter.text + "=" + value.text,
-                                "sweep", diagnostics, value.at);
+        model::parse_assignment(system, run.registry(), sweep.parameter.text + "=" + value.text, "sweep",
+                                diagnostics, sweep.parameter.at, value.at);
     if (!assignment) return;
     Diagnostics found;
-    model::validate(model::with(run.system(), *assignment), run.registry(), found, run.environment());
+    model::validate(model::with(system, *assignment), run.registry(), found, run.environment());
     for (const auto& d : found.all())
-        if (d.severity == Severity::error)
+        if (d.severity == Severity::error && !contains(known, d))
             diagnostics.error(
                 value.at, fmt::format("{} = {}: {}", sweep.parameter.text, value.text, d.message), d.hint);
 }
@@ -172,28 +180,33 @@ void check_runs(const model::Experiment& e, const PrepareRun& prepare, const Run
     RunSpec spec = plan[plan.first(first)].spec;
     spec.directory.clear();  // nothing is written
     auto prepared = prepare(spec, diagnostics);
-    if (!prepared) {  // the swept values are checked nevertheless
+    const bool sound = prepared.has_value();
+    if (!sound) {  // the swept values are checked nevertheless
         RunSpec bare;
-        bare.input = spec.input;
-        Diagnostics ignored;
-        prepared = prepare(bare, ignored);
+        bare.input = spec.input, bare.input.settings.clear();
+        Diagnostics reported;
+        prepared = prepare(bare, reported);
     }
-    for (std::size_t i = 0; prepared && i < e.sweeps.size(); ++i) {
-        if (!e.sweeps[i].files.empty()) continue;
+    if (!prepared) return;
+    const Run& run = prepared->run;
+    model::System system = run.system();
+    Diagnostics ignored, known;
+    if (!sound) {
+        for (const auto& setting : spec.input.settings)
+            model::set(system, run.registry(), setting.text, ignored, setting.at, setting.value_at);
+        model::validate(system, run.registry(), known, run.environment());
+    }
+    for (std::size_t i = 0; i < e.sweeps.size(); ++i) {
+        const auto& sweep = e.sweeps[i];
+        if (!sweep.files.empty() ||
+            !model::find_parameter(system, run.registry(), sweep.parameter.text, "sweep", ignored))
+            continue;
         std::set<std::string> open;
-        for (const auto& value : e.sweeps[i].values) open.insert(value.text);
+        for (const auto& value : sweep.values) open.insert(value.text);
         open.erase(plan.values(first)[i]);
-        for (const auto& value : e.sweeps[i].values)
-            if (open.erase(value.text)) check_value(e.sweeps[i], value, prepared->run, diagnostics);
+        for (const auto& value : sweep.values)
+            if (open.erase(value.text)) check_value(sweep, value, system, run, known, diagnostics);
     }
-}
-
-/// Whether `all` has the same message at the same place.
-bool contains(const Diagnostics& all, const Diagnostic& d) {
-    return std::any_of(all.all().begin(), all.all().end(), [&](const Diagnostic& other) {
-        return other.message == d.message && other.where.file == d.where.file &&
-               other.where.line == d.where.line && other.where.column == d.where.column;
-    });
 }
 
 }  // namespace

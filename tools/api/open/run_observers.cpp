@@ -126,7 +126,7 @@ void add_broadcaster(Preparation& p) {
         else if (source)
             sources.push_back(std::move(*source));
     };
-    for (const auto& [text, at] : spec.sources) add(text, at);
+    for (const auto& source : spec.sources) add(source.text, source.at);
     if (!spec.to || p.diagnostics.failed()) return;
     if (spec.sources.empty())
         for (const auto& g : layout.groups) add("#" + g.id, {});

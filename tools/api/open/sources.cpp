@@ -120,7 +120,9 @@ std::vector<Driver> drivers_of(model::System& system, const Registry& registry) 
 void bind_robots(const std::vector<model::Expression>& bindings, const Registry& registry,
                  model::System& system, Diagnostics& diagnostics) {
     auto drivers = drivers_of(system, registry);
-    for (const auto& [binding, at] : bindings) {
+    for (const auto& given : bindings) {
+        const std::string& binding = given.text;
+        const Location& at = given.at;
         const std::string what = at.file ? "bind" : "--robot";
         const auto equals = binding.find('=');
         const std::string name(model::trim(binding.substr(0, equals)));
@@ -346,7 +348,7 @@ std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Di
         bind_robots(input.robots, out.registry, out.system, diagnostics);
         warn_of_repeated(input.settings, diagnostics);
         for (const auto& setting : input.settings)
-            model::set(out.system, out.registry, setting.text, diagnostics, setting.at);
+            model::set(out.system, out.registry, setting.text, diagnostics, setting.at, setting.value_at);
         Diagnostics reported;  // states may begin with constants that have changed
         if (!input.settings.empty()) equations::add_types(out.system, out.registry, reported);
         check_drivers(out.registry, out.system, out.world != nullptr, diagnostics);
