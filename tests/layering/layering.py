@@ -88,6 +88,7 @@ ALLOWED['tools/studio/server'] = {
     'core/xml',
     'core/observe',
     'core/run',
+    'modules/devices',
     'bug_interface',
     'tools/plot',
     'tools/api/open',

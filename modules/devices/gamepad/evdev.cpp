@@ -29,6 +29,25 @@ std::size_t record_size(Format format) {
     return format == Format::evdev ? sizeof(input_event) : sizeof(js_event);
 }
 
+bool are_records(std::string_view text) {
+    const auto all = [&]<class Record>(Record e, auto is_sound) {
+        for (auto rest = text; rest.size() >= sizeof e; rest.remove_prefix(sizeof e)) {
+            std::memcpy(&e, rest.data(), sizeof e);
+            if (!is_sound(e)) return false;
+        }
+        return text.size() >= sizeof e;
+    };
+    constexpr int second = 1'000'000;  // us
+    return all(js_event{},
+               [](const js_event& e) {
+                   const int type = e.type & ~JS_EVENT_INIT;
+                   return type == JS_EVENT_AXIS || type == JS_EVENT_BUTTON;
+               }) ||
+           all(input_event{}, [](const input_event& e) {
+               return e.input_event_usec >= 0 && e.input_event_usec < second && e.type <= EV_MAX;
+           });
+}
+
 std::size_t Reader::read(std::string_view bytes, bool& complete) {
     const std::size_t size = record_size(format_);
     std::size_t taken = 0;

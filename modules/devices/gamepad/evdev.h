@@ -28,6 +28,9 @@ enum class Format { evdev, joystick };
 /// The size of a record, bytes.
 std::size_t record_size(Format format);
 
+/// Whether a text, of which the end may be missing, is made of records of one of the formats.
+bool are_records(std::string_view text);
+
 /// The values of an axis at its ends.
 struct Range {
     int low = -32768, high = 32767;

@@ -17,6 +17,7 @@
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
 #include "core/model/lookup.h"
+#include "modules/devices/gamepad/evdev.h"
 #include "tools/api/edit/json_text.h"
 #include "tools/studio/server/commands/shared.h"
 
@@ -52,7 +53,13 @@ const KindOfFile& about(FileKind kind) {
          "a recording",
          {".csv", ".dat", ".npy", ".h5"},
          {},
-         "its first column is 'cycle', or it is of NumPy or HDF5"}};
+         "its first column is 'cycle', or it is of NumPy or HDF5"},
+        {FileKind::camera, "a camera", {}, {}, "a page may name a device /dev/video*"},
+        {FileKind::gamepad,
+         "a gamepad",
+         {},
+         {},
+         "a page may name a device of /dev/input, or a file with its records"}};
     return *std::ranges::find(all, kind, &KindOfFile::kind);
 }
 
@@ -168,13 +175,31 @@ std::optional<std::string> beginning_of(const std::string& path) {
     return out;
 }
 
-/// Modules that read or write numbers.
+/// Modules that read or write a file or device. The films of moduleVideo are checked by ffmpeg, which gets
+/// a list of formats.
 struct ModuleFile {
     std::string_view type, parameter;
     FileKind kind;
+    std::string_view device = {};  ///< how the names of its devices begin
 };
 constexpr ModuleFile module_files[] = {{"moduleReplay", "file", FileKind::table},
-                                       {"moduleAL", "File Name", FileKind::patterns}};
+                                       {"moduleAL", "File Name", FileKind::patterns},
+                                       {"moduleVideo", "DeviceName", FileKind::camera, "/dev/video"},
+                                       {"moduleJoystick", "DeviceName", FileKind::gamepad, "/dev/input/"}};
+
+/// The file or device that a parameter of a type of modules names; null when it names none.
+const ModuleFile* module_file(std::string_view type, std::string_view parameter) {
+    const auto* const found = std::ranges::find_if(
+        module_files, [&](const auto& f) { return f.type == type && f.parameter == parameter; });
+    return found == std::end(module_files) ? nullptr : found;
+}
+
+/// Whether a path leads to a device whose name begins so.
+bool is_device(const std::string& path, std::string_view beginning) {
+    std::error_code none;
+    return !beginning.empty() && fs::canonical(path, none).string().starts_with(beginning) &&
+           fs::is_character_file(path, none);
+}
 
 }  // namespace
 
@@ -189,6 +214,8 @@ bool is_of_kind(std::string_view text, FileKind kind) {
             return holds_table(text);
         case FileKind::recording:
             return holds_recording(text);
+        case FileKind::gamepad:
+            return gamepad::are_records(text);
         default:
             return std::ranges::count(about(kind).roots, first_element(text)) > 0;
     }
@@ -241,17 +268,20 @@ std::string shipped_path(const Session& session, const std::string& name) {
 }
 
 void check_module_file(const std::string& type, const std::string& parameter, const std::string& path) {
-    for (const auto& file : module_files)
-        if (file.type == type && file.parameter == parameter && !path.empty())
-            check_readable(path, {file.kind});
+    const auto* file = module_file(type, parameter);
+    if (file && !path.empty() && !is_device(path, file->device)) check_readable(path, {file->kind});
 }
 
 void check_module_files(const model::System& system, Diagnostics& diagnostics) {
     for (const auto& p : system.processes) {
         if (!p.module) continue;
         for (const auto& setting : p.module->settings) try {
-                check_module_file(p.module->type, setting.name,
-                                  model::resolved(setting.value, setting.value_at));
+                const auto* file = module_file(p.module->type, setting.name);
+                if (!file) continue;
+                const bool relative_to_file = file->device.empty();
+                check_module_file(
+                    p.module->type, setting.name,
+                    relative_to_file ? model::resolved(setting.value, setting.value_at) : setting.value);
             } catch (const InputError& e) {
                 const auto& found = e.diagnostics().all().front();
                 diagnostics.error(setting.value_at, found.message, found.hint);

@@ -24,7 +24,9 @@ enum class FileKind {
     layout,
     patterns,  ///< nothing but numbers
     table,     ///< of moduleReplay
-    recording
+    recording,
+    camera,  ///< no file has its content
+    gamepad  ///< its recorded events
 };
 
 /// Whether a text, of which the end may be missing, has the content of a kind. An empty one has that of every
@@ -47,9 +49,9 @@ void check_writable(const Session& session, const std::string& path, FileKind ki
 /// The path of a system or a world that comes with Forage. Throws InputError for a name that leads elsewhere.
 std::string shipped_path(const Session& session, const std::string& name);
 
-/// Reports modules of a system whose file of numbers holds something else.
+/// Reports modules of a system that name a file or device of another kind than theirs.
 void check_module_files(const model::System& system, Diagnostics& diagnostics);
-/// Throws InputError when a parameter of a type of modules names such a file.
+/// Throws InputError when a parameter of a type of modules names such a file or device.
 void check_module_file(const std::string& type, const std::string& parameter, const std::string& path);
 
 /// Whether a message about a file may name what is in it: not when the file is on the disk, and of no kind

@@ -24,9 +24,9 @@ bool acts_at_start(const model::Assignment& a) {
     return !a.parameter || a.parameter->at_start;
 }
 
-/// Throws InputError for the path of a file that no module may read or write.
+/// Throws InputError for the path of a file or device that no module may read or write.
 void check_file(const model::System& system, const model::Assignment& a) {
-    if (!a.parameter || !a.parameter->is_path) return;
+    if (!a.parameter || a.parameter->kind != ParameterKind::text) return;
     if (const auto* use = model::find_use(system, a.id))
         check_module_file(use->type, a.parameter->name, std::get<std::string>(a.value));
 }

@@ -161,6 +161,66 @@ TEST_CASE("modules of an edited system read and write tables and weights only") 
     }
 }
 
+TEST_CASE("modules of an edited system open cameras and gamepads only") {
+    for (const auto& [type, kind] : {std::pair{"moduleVideo", "camera"}, {"moduleJoystick", "gamepad"}}) {
+        OwnFolder f;
+        const auto process = f.session->edited.document->system().processes.front().id;
+        const auto pipe = f.path("pipe");
+        REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+        const auto edit = [&](const std::string& device) {
+            f.sent.clear();
+            f.ask({{"command", "edit"},
+                   {"operations",
+                    {{{"do", "type"}, {"id", process}, {"part", "module"}, {"type", type}},
+                     {{"do", "parameter"}, {"id", process}, {"name", "DeviceName"}, {"value", device}}}}});
+            return f.sent;
+        };
+        const auto secrets = f.file("secrets", fmt::format("root:x:0:{}\n", secret));
+        CHECK(edit(secrets).find(fmt::format("secrets' is not a {}", kind)) != std::string::npos);
+        for (const auto& device : {pipe, std::string("/dev/zero"), std::string("/dev/../dev/zero")})
+            CHECK(edit(device).find("' is not a file") != std::string::npos);
+        for (const auto& device : {f.path("none"), f.file("empty", "")})  // which the module reports
+            CHECK(edit(device).find("' is not a ") == std::string::npos);
+        CHECK_THROWS_AS(check_module_file(type, "DeviceName", secrets), InputError);
+        CHECK_NOTHROW(check_module_file(type, "DeviceName", ""));
+    }
+}
+
+TEST_CASE("messages about arrays of an edited system have nothing of other files") {
+    OwnFolder f;
+    std::string text = read_file(f.path("own.iqr"));
+    for (const auto& content : {fmt::format("root:x:0:{}\n", secret), fmt::format("{} 2\n", secret),
+                                fmt::format("cycle,{}\n1,{}\n", secret, secret)}) {
+        const auto file = f.file("w.csv", content);
+        std::string changed = text;
+        const auto at = changed.find("<Neuron ");
+        const auto end = changed.find('>', at);
+        REQUIRE(end != text.npos);
+        changed.replace(at, changed.find("</Neuron>", at) + 9 - at,
+                        fmt::format("<Neuron name=\"neuronLinearThreshold\"><Initial state=\"vm\" "
+                                    "file=\"{}\"/></Neuron>",
+                                    file));
+        f.ask({{"command", "text_edit"}, {"text", changed}});
+        f.ask({{"command", "document"}});
+        CHECK_FALSE(f.session->edited.current);
+    }
+    CHECK(f.sent.find("w.csv") != std::string::npos);
+    CHECK(f.sent.find(secret) == std::string::npos);
+}
+
+TEST_CASE("recorded events of a gamepad are recognized") {
+    using namespace std::string_literals;
+    const std::string button = "\1\0\0\0\1\0\1\0"s, start = "\1\0\0\0\1\0\x82\1"s;
+    const std::string event = "\1\0\0\0\0\0\0\0\x3f\x42\x0f\0\0\0\0\0\3\0\0\0\1\0\0\0"s;
+    CHECK(is_of_kind(button + start + "\1\0"s, FileKind::gamepad));
+    CHECK(is_of_kind(event + event, FileKind::gamepad));
+    CHECK_FALSE(is_of_kind(button + "\1\0\0\0\1\0\3\0"s, FileKind::gamepad));
+    CHECK_FALSE(is_of_kind(event + "root:x:0:0:root:/root:/bin/sh", FileKind::gamepad));
+    CHECK_FALSE(is_of_kind("root:x:0:0:root:/root:/bin/sh", FileKind::gamepad));
+    CHECK_FALSE(is_of_kind("abc", FileKind::gamepad));
+    CHECK_FALSE(is_of_kind("abc", FileKind::camera));
+}
+
 TEST_CASE("files of the right kind are read, also damaged ones and through links") {
     OwnFolder f;
     const auto damaged =
