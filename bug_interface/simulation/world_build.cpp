@@ -44,15 +44,19 @@ double highest_point(const std::vector<Robot>& robots) {
 World::World(const WorldDescription& description, const WorldOptions& options)
     : description_(description), options_(options) {
     const double factor = options.real_time_factor.value_or(description.step * description.update_rate);
-    substeps_per_cycle_ = factor / (options.cycles_per_second * description.step);
+    constexpr double max_substeps = 1e18;  // of a system that model::validate() refuses
+    substeps_per_cycle_ = std::min(factor / (options.cycles_per_second * description.step), max_substeps);
 }
 
 std::unique_ptr<World> World::make(const WorldDescription& description, const WorldOptions& options,
                                    Diagnostics& diagnostics) {
     const int errors_before = diagnostics.errors();
-    if (!(options.cycles_per_second > 0) || !(options.real_time_factor.value_or(1) > 0)) {
+    const double factor = options.real_time_factor.value_or(1);
+    if (!(options.cycles_per_second > 0) || !(factor > 0 && factor <= 1e9)) {
         diagnostics.error(
-            {}, "a simulated world needs a number of cycles per second and a real time factor above 0",
+            {},
+            "a simulated world needs a number of cycles per second and a real time factor above 0, at most "
+            "1e9",
             "give the system's cyclesPerSecond, or choose one on the command line");
         return nullptr;
     }

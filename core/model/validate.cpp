@@ -80,6 +80,7 @@ class Validator {
         unique_ids();
         count_lost_ids();
         ambiguous_paths();
+        check_rate();
         for (const auto& process : system_.processes) {
             scope_ = &process;
             for (const auto& group : process.groups) check_group(group);
@@ -151,6 +152,14 @@ class Validator {
                         fmt::format("rename one of them; options tell them apart by id: '{}#{}'", path,
                                     g.id));
             }
+    }
+
+    /// A cycle is neither so long nor so short that times in cycles and in seconds lose their meaning.
+    void check_rate() {
+        const double rate = system_.cycles_per_second;
+        if (rate != 0 && !(rate >= 1e-6 && rate <= 1e6))
+            out_.error(system_.at, fmt::format("cylesPerSecond = {} is not possible", to_text(rate)),
+                       "cycles in a second, from 1e-6 to 1000000; 0 counts as 25");
     }
 
     /// A sentence without its full stop, for use within another sentence.

@@ -91,6 +91,14 @@ class World(unittest.TestCase):
         # Without a world it is a warning, as --robot can still bind them to different robots.
         self.assertIn("warning: two modules drive the robot 'A_1'", self.forage("check", TEAMS[0], TEAMS[0]).stderr)
 
+    def test_settings_change_the_rate_of_a_world_also(self):
+        sound = PROJECT / "tests" / "diagnostics" / "sound"
+        text = (sound / "system.iqr").read_text().replace('cylesPerSecond="25"', 'cylesPerSecond="{1 / cycle}"')
+        file = self.here / "system.iqr"
+        file.write_text(text.replace('<Process id="p"', '<Constant name="cycle" value="0.5"/><Process id="p"'))
+        said = self.forage("check", file, "--world", sound / "world.world", "--set", "cycle=0.02").stdout
+        self.assertIn("0.02 s of simulated time per cycle", said)
+
     def test_a_film_has_the_reported_number_of_frames(self):
         out = self.forage("run", *TEAMS, "--seconds", 3, "--video", "game.gif", "-o", "").stdout
         frames = int(re.search(r"game.gif: (\d+) frames", out)[1])

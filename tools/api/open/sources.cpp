@@ -327,17 +327,6 @@ Sources read_sources(const RunInput& input, model::System first, Diagnostics& di
 std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Diagnostics& diagnostics) {
     Loaded out;
     if (sources.system) out.system = *sources.system;
-    if (sources.world) {
-        bug::WorldOptions options;
-        options.seed = input.seed;
-        options.cycles_per_second = out.system.cycles_per_second > 0 ? out.system.cycles_per_second : 25;
-        options.real_time_factor = input.real_time_factor;
-        options.noise = input.noise;
-        options.sensor_rates = input.sensor_rates;
-        options.latency = input.latency;
-        options.game = input.game;
-        out.world = bug::World::make(*sources.world, options, diagnostics);
-    }
     if (sources.replay) play(*sources.replay, out.system);
     out.registry = shipped_types();
     plugin::add(sources.plugins, out.registry);
@@ -351,6 +340,19 @@ std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Di
             model::set(out.system, out.registry, setting.text, diagnostics, setting.at, setting.value_at);
         Diagnostics reported;  // states may begin with constants that have changed
         if (!input.settings.empty()) equations::add_types(out.system, out.registry, reported);
+    }
+    if (sources.world) {  // after the settings, which may change the rate
+        bug::WorldOptions options;
+        options.seed = input.seed;
+        options.cycles_per_second = out.system.cycles_per_second > 0 ? out.system.cycles_per_second : 25;
+        options.real_time_factor = input.real_time_factor;
+        options.noise = input.noise;
+        options.sensor_rates = input.sensor_rates;
+        options.latency = input.latency;
+        options.game = input.game;
+        out.world = bug::World::make(*sources.world, options, diagnostics);
+    }
+    if (sources.system && !sources.plugins_failed) {
         check_drivers(out.registry, out.system, out.world != nullptr, diagnostics);
         if (diagnostics.failed())
             model::validate(out.system, out.registry, diagnostics,

@@ -1,5 +1,7 @@
 #include "core/model/validate.h"
 
+#include <cmath>
+
 #include "tests/support/model_text.h"
 
 using namespace forage;
@@ -56,6 +58,25 @@ std::string one(const std::string& what, const std::string& by, bool enabled = f
     return mistake(replaced(replaced(good(enabled), "source=\"a\" target=\"b\"", to_a), what, by), lenient);
 }
 }  // namespace
+
+TEST_CASE("The rate of a system has limits") {
+    for (const double rate : {0., 1e-6, 25., 1e6}) {
+        auto system = system_of(good());
+        system.cycles_per_second = rate;
+        Diagnostics diagnostics;
+        model::validate(system, test::few_types(), diagnostics);
+        CHECK_FALSE(diagnostics.failed());
+    }
+    for (const double rate : {5e-324, 1e-310, 1e-300, 9e-7, 2e6, 1e300, -1., HUGE_VAL, std::nan("")}) {
+        auto system = system_of(good());
+        system.cycles_per_second = rate;
+        Diagnostics diagnostics;
+        model::validate(system, test::few_types(), diagnostics);
+        REQUIRE(diagnostics.errors() == 1);
+        CHECK(diagnostics.all().front().message.starts_with("cylesPerSecond = "));
+        CHECK(diagnostics.all().front().hint == "cycles in a second, from 1e-6 to 1000000; 0 counts as 25");
+    }
+}
 
 TEST_CASE("An id that is used twice is reported with its first use") {
     CHECK(one("<Group id=\"b\"", "<Group id=\"p\"") ==
