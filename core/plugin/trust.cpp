@@ -90,11 +90,29 @@ std::optional<Diagnostic> insecure(const std::string& path) {
                            : fmt::format("a plugin is a program: 'chmod go-w {}'", shell_word(path)));
 }
 
+std::optional<Diagnostic> insecure_folder(const std::string& path) {
+    if (auto found = insecure(path)) return found;
+    const std::string whole = canonical(path);
+    for (fs::path folder = whole; folder.has_relative_path();) {
+        folder = folder.parent_path();
+        struct stat file {};
+        const bool shared = stat(folder.c_str(), &file) == 0 && (file.st_mode & S_ISVTX) != 0;
+        const bool others = file.st_uid != geteuid() && file.st_uid != 0;
+        if (shared && !others) continue;  // there, others cannot rename what is not theirs
+        if (auto found = insecure(folder.string())) {
+            found->message += fmt::format(", and so replace '{}'", whole);
+            if (others) found->hint = "a plugin is a program: move it to a folder that only you may replace";
+            return found;
+        }
+    }
+    return std::nullopt;
+}
+
 std::optional<Diagnostic> insecure_plugin(const std::string& path) {
     const auto given = fs::path(path).parent_path();
-    auto out = insecure(given.empty() ? "." : given.string());
+    auto out = insecure_folder(given.empty() ? "." : given.string());
     if (!out) out = insecure(path);
-    if (!out) out = insecure(folder_of(path));  // another one when the file is a link
+    if (!out) out = insecure_folder(folder_of(path));  // another one when the file is a link
     return out;
 }
 
@@ -131,7 +149,7 @@ void trust(const std::string& folder, Diagnostics& diagnostics) {
     if (std::error_code none; !fs::is_directory(folder, none))
         return diagnostics.error({}, fmt::format("there is no folder '{}'", folder),
                                  "name the folder that holds the plugins (.so)");
-    if (auto found = insecure(folder)) return diagnostics.add(std::move(*found));
+    if (auto found = insecure_folder(folder)) return diagnostics.add(std::move(*found));
     const std::string whole = canonical(folder);
     if (has_control(whole))
         return diagnostics.error({}, fmt::format("the name '{}' has a control character", whole),

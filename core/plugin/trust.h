@@ -13,7 +13,10 @@ namespace forage::plugin {
 /// group (unless it is that of this user alone) or others may write it. Empty for a secure file, and when
 /// there is no such file.
 std::optional<Diagnostic> insecure(const std::string& path);
-/// The error of a shared object that is insecure(), or is in such a folder.
+/// The error of a folder that is insecure(), or that other users may replace because they may change a folder
+/// around it. In one with the sticky bit, they cannot rename what is not theirs.
+std::optional<Diagnostic> insecure_folder(const std::string& path);
+/// The error of a shared object that is insecure(), or is in an insecure_folder().
 std::optional<Diagnostic> insecure_plugin(const std::string& path);
 
 /// The canonical folder of a plugin.

@@ -96,6 +96,31 @@ TEST_CASE("What others may change is not secure") {
     CHECK(plugin::insecure_plugin(home.path / "link.so"));
 }
 
+TEST_CASE("A folder that others may replace is not secure") {
+    const Home home;
+    const auto inner = home.path / "plugins/deep/er";
+    fs::create_directories(inner);
+    std::ofstream(inner / "a.so") << "x";
+    for (const auto& p : {inner.parent_path(), inner, inner / "a.so"})
+        fs::permissions(p, fs::perms::owner_all);
+    CHECK_FALSE(plugin::insecure_plugin(inner / "a.so"));
+    fs::permissions(home.folder(), fs::perms::others_write, fs::perm_options::add);
+    const auto found = plugin::insecure_plugin(inner / "a.so");
+    REQUIRE(found);
+    CHECK(found->message ==
+          "other users may write '" + home.folder() + "', and so replace '" + inner.string() + "'");
+    CHECK(found->hint == "a plugin is a program: 'chmod go-w '" + home.folder() + "''");
+    CHECK(trusting(inner.string()).failed());
+    fs::permissions(home.folder(), fs::perms::sticky_bit, fs::perm_options::add);
+    CHECK_FALSE(plugin::insecure_plugin(inner / "a.so"));
+    if (geteuid() != 0) return;
+    CHECK(chown(home.folder().c_str(), 12345, 0) == 0);
+    REQUIRE(plugin::insecure_plugin(inner / "a.so"));
+    CHECK(plugin::insecure_plugin(inner / "a.so")->message.find("belongs to another user") !=
+          std::string::npos);
+    CHECK(chown(home.folder().c_str(), 0, 0) == 0);
+}
+
 TEST_CASE("A list that others may write counts for nothing") {
     const Home home;
     REQUIRE_FALSE(trusting(home.folder()).failed());
