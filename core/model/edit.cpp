@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/printable.h"
+#include "core/base/odd_control.h"
 #include "core/base/separated.h"
 #include "core/model/arrays.h"
 #include "core/model/build.h"
@@ -18,12 +18,6 @@
 
 namespace forage::model {
 namespace {
-
-/// Whether a text has a control character that XML cannot hold.
-bool is_unwritable(std::string_view text) {
-    return std::ranges::any_of(
-        text, [](unsigned char c) { return c < ' ' && c != '\t' && c != '\n' && c != '\r'; });
-}
 
 /// An item of a system that has parameters, found by the name before the dot.
 struct Owner {
@@ -262,7 +256,7 @@ std::optional<Assignment> parse_assignment(const System& system, const Registry&
         return std::nullopt;
     }
     const bool is_path = out->parameter && out->parameter->is_path;
-    if (kind == ParameterKind::text && (is_path ? has_control(value.text) : is_unwritable(value.text))) {
+    if (kind == ParameterKind::text && (is_path ? has_control(value.text) : has_odd_control(value.text))) {
         context.error(value.at, fmt::format("'{}' has a control character", value.text), "remove it");
         return std::nullopt;
     }

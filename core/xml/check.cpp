@@ -9,7 +9,7 @@
 
 #include "core/base/named_file.h"
 #include "core/base/number.h"
-#include "core/base/printable.h"
+#include "core/base/odd_control.h"
 #include "core/base/separated.h"
 #include "core/formula/formula.h"
 #include "core/model/names.h"
@@ -43,13 +43,6 @@ struct Subject {
         return meant.empty() ? description() : fmt::format("did you mean '{}'?", meant);
     }
 };
-
-/// Whether a text has a control character that XML accepts, but that is no white space, such as U+0085.
-bool has_odd_control(std::string_view text) {
-    std::string rest(text);
-    std::erase_if(rest, [](char c) { return c == '\t' || c == '\n' || c == '\r'; });
-    return has_control(rest);
-}
 
 class Checker {
   public:

@@ -467,6 +467,7 @@ class Mistakes(Cli):
             (["--set", "Bug/Light.thresold=1"], "did you mean 'threshold'"),
             (["--set", "Bug/Light.threshold=high"], "is not a number"),
             (["--set", "Bug.device_name=a\x1b"], "'a\\x1b' has a control character"),
+            (["--set", "Bug.device_name=a\u0085"], "'a\\u0085' has a control character"),
             (["--set", "nonsense"], "not an assignment"),
             (["--replay", "absent.csv"], "absent.csv: error: there is no such file"),
             (["--record", "Light"], "did you mean 'Bug/Light'"),
