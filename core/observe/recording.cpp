@@ -131,17 +131,19 @@ class NpyRecording final : public Recording {
             return at != rest.npos;
         };
         std::optional<int> height = 1, width = 1;
-        bool known = go_behind("<u8") && go_behind("('");
+        bool known = go_behind("[('cycle', '<u8'), ('");
         what_.state = rest.substr(0, std::min(rest.find('\''), rest.size()));
-        known = known && go_behind("', '<f8'");
+        rest.remove_prefix(what_.state.size());
+        known = known && take("', '<f8'");
         what_.mean = !take(", (");
         if (!what_.mean) height = take_number<int>(rest), width = take(", ") ? take_number<int>(rest) : 0;
-        if (!known || !(height > 0) || !(width > 0) || !go_behind("'shape': ("))
+        known = known && (what_.mean || take(")")) && take(")]") && go_behind("'shape': (");
+        if (!known || !(height > 0) || !(width > 0))
             no_recording(path, "its records are not a cycle and numbers");
         if (std::int64_t{*width} * *height > max_cells) no_recording(path, "it has too many cells");
         what_.cells = {1, 1, *width, *height, {}};
         const auto rows = take_number<std::uint64_t>(rest);
-        if (!rows) no_recording(path, "it does not say how many rows it has");
+        if (!rows || !take(",)")) no_recording(path, "it does not say how many rows it has");
         rows_ = *rows;
         body_ = in_.tellg();
         const auto bytes = std::filesystem::file_size(file), row = 8 * (1 + std::uint64_t{what_.size()});

@@ -163,6 +163,30 @@ TEST_CASE("A file of a killed run can be read up to its last complete row") {
     CHECK(rows_of(*open_recording(directory / "r.npy")[0]).cycles.size() == 3);
 }
 
+TEST_CASE("A NumPy file of other records is refused") {
+    const Directory directory;
+    const auto opened = [&](const std::string& type, const std::string& shape) {
+        std::string head = "{'descr': " + type + ", 'fortran_order': False, 'shape': " + shape + ", }\n";
+        std::ofstream out(directory / "r.npy", std::ios::binary);
+        out.write("\x93NUMPY\x01\x00", 8);
+        out << static_cast<char>(head.size()) << '\0' << head << std::string(48, '\0');
+        out.close();
+        return open_recording(directory / "r.npy").size();
+    };
+    CHECK(opened("[('cycle', '<u8'), ('v', '<f8')]", "(3,)") == 1);
+    CHECK(opened("[('cycle', '<u8'), ('v', '<f8', (1, 2))]", "(2,)") == 1);
+    for (const std::string type :
+         {"[('cycle', '<u8'), ('v', '<f8'), ('w', '<f8')]", "[('cycle', '<u8'), ('v', [('x', '<f8')])]",
+          "[(('title', 'cycle'), '<u8'), ('v', '<f8')]", "[('cycle', '<u8'), ('v', '|O')]", "'|O'",
+          "{'names': ['cycle', 'v'], 'formats': ['<u8', '<f8'], 'offsets': [0, 16], 'itemsize': 32}",
+          "[('cycle', '<u8'), ('v', '<f8', (1, 2, 2))]", "[('cycle', '<u8'), ('v', '<f8', (2,))]"}) {
+        INFO(type);
+        CHECK_THROWS_WITH(opened(type, "(1,)"), EndsWith("its records are not a cycle and numbers"));
+    }
+    CHECK_THROWS_WITH(opened("[('cycle', '<u8'), ('v', '<f8')]", "(3, 1)"),
+                      EndsWith("it does not say how many rows it has"));
+}
+
 TEST_CASE("A file that is not a recording is refused by name") {
     const Directory directory;
     for (const auto& [name, text] : {std::pair{"a.csv", "time,x1_y1\n0,1\n"},
