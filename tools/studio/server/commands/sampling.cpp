@@ -27,21 +27,35 @@ std::string next_of_sequence(const fs::path& file) {
                      "choose another name");
 }
 
+observe::RowFileHeader header_of(const RecordingFile& recorded, std::uint64_t every) {
+    observe::RowFileHeader out;
+    for (const auto& source : recorded.sources) out.sources.push_back(source.what());
+    out.every = every;
+    return out;
+}
+
+/// Checks that rows of the same sources can be appended to `file`; returns its size. Leaves no file. Throws
+/// InputError.
+std::size_t check_same_sources(observe::RecordingFormat format, const std::string& file,
+                               const observe::RowFileHeader& header) {
+    observe::open_row_file(format, partial(file), header)->close();
+    const std::string head = read_file(partial(file)), old = read_file(file);
+    fs::remove(partial(file));
+    if (!old.starts_with(head) || !old.ends_with('\n'))
+        throw InputError(fmt::format("'{}' does not hold the same sources", file),
+                         "record into another file, or a sequence of files");
+    return old.size();
+}
+
 /// Opens partial(file) with the rows that `file` has, to append rows of the same sources. Throws InputError.
 std::unique_ptr<observe::RowFile> continued(observe::RecordingFormat format, const std::string& file,
                                             const observe::RowFileHeader& header) {
-    observe::open_row_file(format, partial(file), header)->close();
-    const std::string head = read_file(partial(file)), old = read_file(file);
-    if (!old.starts_with(head) || !old.ends_with('\n')) {
-        fs::remove(partial(file));
-        throw InputError(fmt::format("'{}' does not hold the same sources", file),
-                         "record into another file, or a sequence of files");
-    }
+    const auto size = check_same_sources(format, file, header);
     fs::copy_file(file, partial(file), fs::copy_options::overwrite_existing);
-    return observe::open_row_file(format, partial(file), header, observe::RowFilePosition{0, old.size()});
+    return observe::open_row_file(format, partial(file), header, observe::RowFilePosition{0, size});
 }
 
-/// The file that a recording would write now, with what gets into it. Writes nothing. Throws InputError.
+/// The file that a recording would write now, with what gets into it. Leaves no file. Throws InputError.
 std::pair<std::string, RecordingFile> planned(const Session& s, const SamplerRequest& how) {
     if (how.sources.empty()) throw InputError("the sampler needs a source");
     const auto file = how.mode == "sequence" ? next_of_sequence(how.file) : how.file;
@@ -62,15 +76,15 @@ std::pair<std::string, RecordingFile> planned(const Session& s, const SamplerReq
                                                   format != observe::RecordingFormat::csv &&
                                                   format != observe::RecordingFormat::sampler)
         throw InputError("rows can be appended to a .csv or a .dat file", "record a sequence of files");
+    if (how.mode == "append" && fs::exists(file))
+        check_same_sources(files.front().format, file, header_of(files.front(), how.every));
     return {file, std::move(files.front())};
 }
 
 /// Begins a recording. Throws InputError.
 void begin_sampling(Session& s, const SamplerRequest& how) {
     auto [file, recorded] = planned(s, how);
-    observe::RowFileHeader header;
-    for (const auto& source : recorded.sources) header.sources.push_back(source.what());
-    header.every = how.every;
+    const auto header = header_of(recorded, how.every);
     Sampler sampler;
     sampler.what = {how.sources, file, how.every, s.run().cycle()};
     sampler.left = how.cycles;

@@ -502,6 +502,27 @@ TEST_CASE("a recording that begins with each run is one of a sequence, unless it
     std::filesystem::remove_all(folder);
 }
 
+TEST_CASE("a recording that waits for a run is appended to one of the same sources only") {
+    Fixture f;
+    const auto folder = test::temporary_path("forage-studio-append");
+    std::filesystem::remove_all(folder), std::filesystem::create_directories(folder);
+    const auto file = (folder / "t.csv").string();
+    json command = {{"command", "sample"}, {"file", file}, {"sources", {"Bug/Light"}}};
+    f.result(command), f.result({{"command", "step"}}), f.result({{"command", "stop"}});
+    const auto before = read_file(file);
+    command["automatic"] = true, command["mode"] = "append", command["sources"] = {"Bug/Motor"};
+    const json answer = f.ask(command);
+    CHECK(answer["ok"] == false);
+    CHECK(answer.dump().find("does not hold the same sources") != std::string::npos);
+    f.result({{"command", "step"}}), f.result({{"command", "stop"}});
+    CHECK(read_file(file) == before);
+    command["sources"] = {"Bug/Light"};
+    f.result(command), f.result({{"command", "step"}}), f.result({{"command", "stop"}});
+    CHECK(read_file(file).size() > before.size());
+    CHECK(std::ranges::distance(std::filesystem::directory_iterator(folder)) == 1);
+    std::filesystem::remove_all(folder);
+}
+
 TEST_CASE("the open system moves to another world, with its edits") {
     Fixture f;
     f.session.connect(1);
