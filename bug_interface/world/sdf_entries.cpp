@@ -27,14 +27,31 @@ bool is_target(const ItemElement& body) {
     });
 }
 
-std::string kind_of(std::string_view text, const Entry& e) {
+/// Whether a model, or one that is merged into it, is made a robot or a resource: "robot", "resource" or "".
+std::string_view role_of(std::string_view text, const SourceElement& model, ModelTexts& models,
+                         int depth = 0) {
+    if (has_plugin(model, "libvel_plugin.so")) return "robot";
+    if (has_plugin(model, "libtarget_plugin.so")) return "resource";
+    constexpr int max_depth = 8;
+    if (depth == max_depth) return {};
+    for (const auto* include : all(model, "include")) {
+        const auto merge = include->value("merge");
+        if (merge != "true" && merge != "1") continue;
+        const std::string& file = models.of(decoded(content(text, child(*include, "uri"))));
+        const SourceElement root = file.empty() ? SourceElement() : xml::scan(file);
+        for (const auto* merged : all(root, "model"))
+            if (const auto role = role_of(file, *merged, models, depth + 1); !role.empty()) return role;
+    }
+    return {};
+}
+
+std::string kind_of(std::string_view text, const Entry& e, ModelTexts& models) {
     if (e.name.starts_with("Reset_")) return "start";
     if (e.name.starts_with("Home_")) return "home";
     if (!e.body.element) return "other";
     const auto& body = *e.body.element;
     if (body.name == "light") return "sun";
-    if (has_plugin(body, "libvel_plugin.so")) return "robot";
-    if (has_plugin(body, "libtarget_plugin.so")) return "resource";
+    if (const auto role = role_of(e.body.text, body, models); !role.empty()) return std::string(role);
     if (!all(body, "plane").empty()) return "floor";
     const auto* set = e.form == Entry::Form::include ? child(*e.element, "static") : nullptr;
     if (set ? !is_true(text, set) : !is_true(e.body.text, child(body, "static"))) return "object";
@@ -62,7 +79,7 @@ Entry entry(std::string_view text, const SourceElement& element, ModelTexts& mod
         out.name = decoded(element.value("name"));
         out.body.text = text, out.body.element = &element;
     }
-    out.kind = kind_of(text, out);
+    out.kind = kind_of(text, out, models);
     return out;
 }
 

@@ -371,3 +371,16 @@ TEST_CASE("An edit of a model that <state> places changes its pose and its name 
                ContainsSubstring("<state world_name='w'><model name=\"Crate\">"));
     CHECK_THAT(removed_from_world(text, "Box", models), !ContainsSubstring("Box"));
 }
+
+TEST_CASE("A model is a robot or a resource also when it is merged from another one") {
+    const auto world = paths::source_dir() / "systems/worlds/basic_arena.world";
+    const std::string text =
+        "<sdf version=\"1.9\"><world name=\"w\">"
+        "<model name=\"Mine\"><include merge=\"true\"><uri>model://forage_bug</uri></include></model>"
+        "<model name=\"Other\"><include><uri>model://forage_bug</uri></include></model>"
+        "</world></sdf>";
+    ModelTexts models(world.string());
+    const auto items = items_of_world(text, models);
+    CHECK(find_item(items, "Mine").kind == "robot");
+    CHECK(find_item(items, "Other").kind == "object");
+}
