@@ -61,8 +61,11 @@ std::string SdfSource::found(const xml::Element& uri) const {
     return folders.find(uri.value().text(), uri.document().source->path);
 }
 
-/// Warns about angles of more than a turn, which are probably degrees.
+/// Warns about angles of more than a turn, which are probably degrees, and about a quaternion in degrees.
 void SdfSource::check_angles(const xml::Element& pose, const std::vector<double>& numbers) {
+    if (in_degrees(pose) && is_quaternion(pose))
+        diagnostics.warning(pose["degrees"].where(), "degrees have no effect on a quaternion",
+                            "remove this attribute, or give three angles");
     if (in_degrees(pose) || is_quaternion(pose)) return;
     for (std::size_t i = 3; i < numbers.size(); ++i)
         if (std::abs(numbers[i]) > 2 * std::numbers::pi + 1e-3) {

@@ -81,7 +81,7 @@ TEST_CASE("A malformed value gives an error at its line") {
           "to 1\n");
 }
 
-TEST_CASE("An angle of more than a turn gives a warning") {
+TEST_CASE("An angle of more than a turn and a quaternion in degrees give a warning") {
     const auto said = [](const char* yaw) {
         return diagnostics_of(
             edited("<pose>0 -2 0 0 0 1.57079</pose>", std::string("<pose>0 -2 0 0 0 ") + yaw + "</pose>"));
@@ -89,6 +89,11 @@ TEST_CASE("An angle of more than a turn gives a warning") {
     CHECK(said("90") ==
           "58: warning: an angle of 90 in a <pose>: radians, not degrees? | 90 degrees are 1.5708 rad\n");
     CHECK(said("-6.28").empty());
+    CHECK(diagnostics_of(edited("<pose>0 -2 0 0 0 1.57079</pose>",
+                                "<pose rotation_format=\"quat_xyzw\" degrees=\"true\">0 -2 0 0 0 0.7071 "
+                                "0.7071</pose>")) ==
+          "58: warning: degrees have no effect on a quaternion | remove this attribute, or give three "
+          "angles\n");
 }
 
 TEST_CASE("Errors of an included model's pose are reported at the include") {
