@@ -118,6 +118,7 @@ int program(int argc, char** argv) {
     world_command
         .add_option("-o,--output", world_options.picture,
                     "Picture (.png, .svg or .pdf) [FILE's or ROBOT's name with .png]")
+        ->check(named("file"))
         ->option_text("PICTURE");
     world_command
         .add_option(

@@ -31,6 +31,13 @@ CLI::Validator number_that(bool (*fits)(double), const char* description) {
 
 }  // namespace
 
+CLI::Validator named(const std::string& what) {
+    return {[what](const std::string& name) {
+                return name.empty() ? fmt::format("no {} is named", what) : std::string();
+            },
+            ""};
+}
+
 CLI::Validator positive() {
     return number_that([](double v) { return v > 0 && v <= 1e9; }, "a number above 0, at most 1e9");
 }
@@ -114,7 +121,7 @@ void add_input(CLI::App& command, RunInput& input) {
         ->expected(1, 1000)
         ->option_text("FILE...");
     command.add_option("-w,--world", input.world, "World in which the robot lives (.world)")
-        ->check([](const std::string& name) { return name.empty() ? "no file is named" : std::string(); })
+        ->check(named("file"))
         ->option_text("FILE");
     add_texts(command, "-s,--set", input.settings,
               "Change a parameter: 'Process/Group.parameter=value', 'Process.parameter=value' for a "
@@ -145,6 +152,7 @@ void add_tutorial(CLI::App& app, TutorialOptions& o) {
                     "it lacks something")
         ->option_text("FILE");
     tutorial.add_option("-o,--output", o.directory, "Directory for results [forage-out/tutorial/EXERCISE]")
+        ->check(named("directory"))
         ->option_text("DIR");
 }
 
@@ -161,6 +169,7 @@ void add_experiment(CLI::App& app, ExperimentOptions& o) {
         "  forage experiment systems/light_threshold.xml --status");
     experiment.add_option("FILE", o.file, "Experiment file (.xml)")->required()->option_text(" ");
     experiment.add_option("-o,--output", o.directory, "Directory for results [forage-out/ and FILE's name]")
+        ->check(named("directory"))
         ->option_text("DIR");
     experiment.add_option("-j,--jobs", o.jobs, "Number of simultaneous runs [one per core]")
         ->transform(threads())
@@ -264,7 +273,9 @@ void add_plot(CLI::App& app, PlotOptions& o) {
                              "Of an experiment, draw only the runs with this value of a swept parameter or "
                              "of the seed: 'threshold=0.5', 'seed=1'; may be repeated"))
         ->option_text("NAME=VALUE");
-    plot.add_option("-o,--output", o.directory, "Directory for pictures [beside FROM]")->option_text("DIR");
+    plot.add_option("-o,--output", o.directory, "Directory for pictures [beside FROM]")
+        ->check(named("directory"))
+        ->option_text("DIR");
     add_plot_format(plot, o.plot_format);
 }
 
@@ -281,6 +292,7 @@ void add_convert(CLI::App& app, ConvertOptions& o) {
             "OUT", o.output,
             "File to write (.iqr or .iqrProcess; .cpp with --as-plugin); may be the same, or - to print it")
         ->required()
+        ->check(named("file"))
         ->option_text("FILE");
     repeated(convert.add_option("--import", o.imports,
                                 "Add a copy of a process from an .iqrProcess file; may be repeated"))
@@ -316,7 +328,9 @@ void add_edit(CLI::App& app, EditOptions& o) {
                     "JSON: an operation or a list of them, or the name of a file with it")
         ->required()
         ->option_text(" ");
-    command.add_option("-o,--output", o.output, "File to write [FILE]")->option_text("FILE");
+    command.add_option("-o,--output", o.output, "File to write [FILE]")
+        ->check(named("file"))
+        ->option_text("FILE");
     add_plugins(command, o.plugins);
 }
 
@@ -364,6 +378,7 @@ void add_build_plugin(CLI::App& app, BuildPluginOptions& o) {
         "adaptive.cpp");
     command.add_option("FILE", o.source, "Source file (.cpp)")->required()->option_text(" ");
     command.add_option("-o,--output", o.output, "Plugin to write [plugins/NAME.so beside FILE]")
+        ->check(named("file"))
         ->option_text("FILE");
     command.add_flag("--debug", o.debug, "For a debugger; the plugin checks each index, and is slower");
 }

@@ -11,6 +11,8 @@
 namespace forage::tool {
 
 // Checks of values that several commands use.
+/// A name that is not empty, of `what`: "file", "directory".
+CLI::Validator named(const std::string& what);
 CLI::Validator positive();  ///< a number above 0, at most 1e9
 CLI::Validator count();     ///< a whole number, at least 1
 CLI::Validator seed();      ///< a whole number, at least 0
