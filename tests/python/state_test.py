@@ -76,3 +76,6 @@ def test_a_system_that_has_changed_is_refused(tmp_path):
         file.write("\n")
     with pytest.raises(forage.InputError, match="mine.iqr' has changed since the run was opened"):
         forage.resume(state)
+    system.unlink()
+    with pytest.raises(forage.InputError, match="mine.iqr' is gone, which the run has read"):
+        forage.resume(state)
