@@ -27,9 +27,9 @@ struct GroupState {
     std::uint64_t same_for = 0;  ///< updates in a row with the same input
     std::int64_t changed = 0;    ///< the last cycle whose activity differed from that of the cycle before
 
-    std::vector<NeuronColumns::State> states;                  ///< their rings
+    std::vector<NeuronColumns::State> states;                 ///< their rings
     std::array<std::array<double*, 2>, max_inputs> inputs{};  ///< of this and of the next cycle, in turns
-    double* past = nullptr;                                    ///< ring of past activity
+    double* past = nullptr;                                   ///< ring of past activity
 };
 
 struct ModuleState {

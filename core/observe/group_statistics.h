@@ -28,7 +28,7 @@ struct Spread {
 class GroupStatistics final : public Observer {
   public:
     struct Group {
-        std::vector<Spread> states;              ///< by state of the type
+        std::vector<Spread> states;             ///< by state of the type
         std::array<Spread, max_inputs> inputs;  ///< by InputKind, with the gains of the type
     };
     explicit GroupStatistics(const engine::Layout& layout);

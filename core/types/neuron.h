@@ -47,7 +47,7 @@ struct NeuronType {
     std::vector<StateInfo> states;
     std::array<bool, max_inputs> reads{};  ///< which kinds of input the type uses; the others stay 0
     std::vector<std::string> inputs;       ///< further inputs, whose kinds follow the three
-    bool declared = false;     ///< by the system's own file
+    bool declared = false;                 ///< by the system's own file
     bool elementwise = false;  ///< whether cells do not see each other; threads may share such an update
     std::function<std::unique_ptr<NeuronInstance>()> make;
     std::function<void(const void*, Diagnostics&)> check;  ///< checks an object's parameters; may be empty

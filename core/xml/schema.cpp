@@ -172,8 +172,7 @@ class Schema : Printer {
         choice_of(names(shipped));
         close(), close(), close();
         open("interleave");
-        for (const char* child : {"Parameter", "Initial"})
-            open("zeroOrMore"), reference(child), close();
+        for (const char* child : {"Parameter", "Initial"}) open("zeroOrMore"), reference(child), close();
         open("optional"), reference("Note"), close();
         close(), close();
     }

@@ -11,8 +11,8 @@
 #include <sys/resource.h>
 
 #include "core/connectivity/connect.h"
-#include "core/model/lookup.h"
 #include "core/equations/declared_types.h"
+#include "core/model/lookup.h"
 #include "core/model/validate.h"
 #include "core/xml/reader.h"
 #include "neurons/linear_threshold.h"

@@ -122,7 +122,11 @@ def test_types_by_equations():
     system.connect(source, cell, synapse=hebb, name="C")
     assert forage.System.parse(system.to_xml()) == system
     before = system.to_xml()
-    for name, equations, words in (("leaky", "output y = exc", "there is already"), ("new", "output y = ecx", "did you mean 'exc'"), ("new", "", "no equation")):
+    for name, equations, words in (
+        ("leaky", "output y = exc", "there is already"),
+        ("new", "output y = ecx", "did you mean 'exc'"),
+        ("new", "", "no equation"),
+    ):
         with pytest.raises(forage.InputError, match=words):
             system.add_neuron_type(name, equations)
     assert system.to_xml() == before

@@ -24,8 +24,7 @@ struct Ring {
     /// The row of cycle `cycle` - `delay` - `older`; together they are less than the depth.
     const double* ago(std::uint64_t cycle, int delay) const {
         if (depth == 1) return rows;  // saves the division
-        const auto row =
-            static_cast<std::int64_t>(cycle % static_cast<std::uint64_t>(depth)) - delay - older;
+        const auto row = static_cast<std::int64_t>(cycle % static_cast<std::uint64_t>(depth)) - delay - older;
         return rows + (row < 0 ? row + depth : row) * stride;
     }
 };

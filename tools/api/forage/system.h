@@ -40,8 +40,8 @@ SystemFile read_system(const std::string& path, std::vector<std::string> plugins
 SystemFile parse_system(const std::string& text, const std::string& path,
                         std::vector<std::string> plugins = {}, Diagnostics* warnings = nullptr);
 
-/// Declares a neuron or synapse type in the system (docs/reference/system-file.md#types). Throws InputError for
-/// what is wrong with it, and then changes nothing.
+/// Declares a neuron or synapse type in the system (docs/reference/system-file.md#types). Throws InputError
+/// for what is wrong with it, and then changes nothing.
 void declare_neuron_type(SystemFile& file, model::TypeDeclaration type);
 void declare_synapse_type(SystemFile& file, model::TypeDeclaration type);
 

@@ -46,8 +46,7 @@ TEST_CASE("a connection transmits the output or another state of its source") {
     CHECK(outputs(run_with("output x = exc", connection("")), 4) == std::vector<double>{0, 20, 40, 60});
     CHECK(outputs(run_with("output x = exc", connection("state=\"n\"")), 4) ==
           std::vector<double>{0, 2, 4, 6});
-    const std::string delay =
-        "<DelayFunction><FunUniform value=\"2\"/></DelayFunction>";
+    const std::string delay = "<DelayFunction><FunUniform value=\"2\"/></DelayFunction>";
     CHECK(outputs(run_with("output x = exc", connection("state=\"n\"", delay)), 6) ==
           std::vector<double>{0, 0, 0, 2, 4, 6});
 }

@@ -118,11 +118,13 @@ TEST_CASE("mistakes are reported at their places, and nothing that follows from 
     CHECK(said("tau = 1; output x = tau", {false, {"tau"}, {}, {}}) ==
           Mistakes{"0: 'tau' is a constant of the type and cannot be computed"});
     CHECK(said("y = u; u = exc; output x = y") == Mistakes{"4: 'u' is computed below"});
-    CHECK(said("when exc > 1: x' = 1; n' = 2; output x") == Mistakes{"22: after 'when', ',' divides the changes"});
+    CHECK(said("when exc > 1: x' = 1; n' = 2; output x") ==
+          Mistakes{"22: after 'when', ',' divides the changes"});
     CHECK(said("x' = 1; when' = 2; output x").size() == 1);
     CHECK(said("dv/dt = exc : volt; output v").size() == 1);
     CHECK(said("v' = pre.v; output v", {true, {}, {}, {}}).size() == 1);
-    CHECK(said("input push; input push; output x = push") == Mistakes{"18: there is already an input 'push'"});
+    CHECK(said("input push; input push; output x = push") ==
+          Mistakes{"18: there is already an input 'push'"});
     CHECK(said("x' = exc") == Mistakes{"0: the equations name no output"});
     CHECK(said("output x = 1; output y = 2") == Mistakes{"21: 'x' is the output already"});
     CHECK(said("exc; output x = 1") == Mistakes{"0: this is no equation"});

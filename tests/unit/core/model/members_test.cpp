@@ -32,9 +32,7 @@ void change(Phantom& phantom) { phantom.y += 1; }
 void change(Setting& setting) { setting.value = "1"; }
 void change(Initial& initial) { initial.state = "vm", initial.value = "1"; }
 void change(Constant& constant) { constant.name = "k", constant.value = "2", constant.minimum = 0.5; }
-void change(TypeDeclaration& type) {
-    type.name = type.name + "x", type.equations = {{"output y = exc", {}}};
-}
+void change(TypeDeclaration& type) { type.name = type.name + "x", type.equations = {{"output y = exc", {}}}; }
 void change(Formulas<System>& formulas) {
     formulas = {{&System::cycles_per_second, "cylesPerSecond", "{10 + 2.5}", 0, 1e6, true, 12.5, {}}};
 }
