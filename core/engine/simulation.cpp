@@ -227,6 +227,11 @@ std::string_view Simulation::connection_form(int connection) const {
     return c.kernel ? c.kernel->form() : "pruned";
 }
 
+double Simulation::connection_cost(int connection) const {
+    const auto& c = parts_->plan->connections[connection];
+    return c.kernel ? c.kernel->cost() : 0;
+}
+
 std::size_t Simulation::synapses(int connection) const {
     return parts_->plan->connections[connection].synapses;
 }

@@ -136,6 +136,8 @@ class Simulation {
 
     /// Returns the name of the kernel form to which a connection was compiled, or "pruned".
     std::string_view connection_form(int connection) const;
+    /// Returns about how long a cycle of the connection takes on one thread, in ns.
+    double connection_cost(int connection) const;
     /// Returns the number of a connection's synapses.
     std::size_t synapses(int connection) const;
     /// Returns a state of a connection's synapses, one number per synapse; empty when they have none.

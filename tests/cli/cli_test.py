@@ -690,11 +690,26 @@ class Others(Cli):
         self.assertRegex(self.forage("types", "synapseHebbian").stdout, r"postact +Postsynaptic activity")
         self.assertRegex(self.forage("types", "moduleCL").stdout, r"Reads from groups\n +action +Action: any size\. The action")
 
+    def test_types_of_a_file_are_described(self):
+        model = PROJECT / "systems/models/td_conditioning.iqr"
+        self.assertRegex(self.forage("types", model).stdout, r"prediction\nThe prediction V and its error[^\n]*\n(.*\n)*\ntd\n(.*\n)*  trace")
+        self.assertRegex(self.forage("describe", model).stdout, r"td \(synapse\): A trace[^\n]*\n      trace' = trace \+ delta \* \(pre - trace\)\n")
+        types = json.loads(self.forage("describe", model, "--format", "json").stdout)["types"]
+        self.assertEqual([t["name"] for t in types], ["prediction", "td"])
+        self.assertEqual(types[1]["equations"][2], "output psp = weight' * pre'")
+        self.assertIn("declares no types", self.forage("types", SYSTEM).stdout)
+
+    def test_a_declared_type_is_written_as_a_plugin(self):
+        model = PROJECT / "systems/models/oja.iqr"
+        source = self.forage("convert", model, "-", "--as-plugin", "oja").stdout
+        self.assertIn("FORAGE_PLUGIN(oja);", source)
+        self.assertIn("did you mean 'oja'", self.forage("convert", model, "-", "--as-plugin", "oya", status=2).stderr)
+
     def test_a_system_is_described(self):
         text = self.forage("describe", SYSTEM).stdout
         self.assertTrue(text.startswith("Reactive foraging: 3 processes, 17 groups (3306 cells), 10 connections (133 synapses)\n"))
         self.assertIn("\n    US: 7 x 1, neuronLinearThreshold (excGain=5,", text)
-        self.assertIn("-> Reactive Layer/US: excitatory, 64 synapses (list), synapseFixedWeight (weight=1), 'Light to US'", text)
+        self.assertIn("-> Reactive Layer/US: excitatory, 64 synapses (list, 83 ns per cycle), synapseFixedWeight (weight=1), 'Light to US'", text)
         self.assertIn("      writes _target: Bug/Light\n", text)
         self.assertEqual(text.count(" -> "), 10)
         self.assertIn("weight=0.25", self.forage("describe", SYSTEM, "--set", "Light to US.weight=0.25").stdout)

@@ -35,6 +35,13 @@ std::string text_of(const ConstantDescription& c) {
                        c.doc.empty() ? "" : ": " + c.doc);
 }
 
+/// How a connection is computed, and what that costs.
+std::string form_of(const ConnectionDescription& c) {
+    if (c.cost <= 0) return c.form;
+    return c.cost < 10000 ? fmt::format("{}, {:.0f} ns per cycle", c.form, c.cost)
+                         : fmt::format("{}, {:.0f} us per cycle", c.form, c.cost / 1000);
+}
+
 std::string module_of(const ProcessDescription& process) {
     return process.module.type + (process.module_enabled ? "" : ", switched off");
 }
@@ -200,9 +207,9 @@ std::string as_text(const SystemDescription& d) {
                 std::string target = c.target;
                 for (const auto& other : p.groups)
                     if (other.path == target) target = other.name;
-                out +=
-                    fmt::format("      -> {}: {}, {} ({}), {}, '{}'\n", target, c.kind,
-                                number_of(c.synapses, "synapse"), c.form, with_parameters(c.synapse), c.name);
+                out += fmt::format("      -> {}: {}, {} ({}), {}, '{}'\n", target, c.kind,
+                                   number_of(c.synapses, "synapse"), form_of(c), with_parameters(c.synapse),
+                                   c.name);
             }
         }
     }
@@ -301,6 +308,7 @@ std::string as_json(const SystemDescription& d) {
                                {"kind", c.kind},
                                {"synapses", c.synapses},
                                {"form", c.form},
+                               {"ns_per_cycle", c.cost},
                                {"pattern", c.pattern},
                                {"arborization", c.arborization},
                                {"attenuation", c.attenuation},

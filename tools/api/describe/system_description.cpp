@@ -226,6 +226,7 @@ SystemDescription describe(const model::System& system, const engine::Simulation
                  (c.input.empty() ? name_of(c.kind) : c.input) + (c.state.empty() ? "" : " from " + c.state),
              .synapses = built ? compiled->synapses(number->second) : 0,
              .form = built ? std::string(compiled->connection_form(number->second)) : "not built",
+             .cost = built ? compiled->connection_cost(number->second) : 0,
              .pattern = describe(c.pattern),
              .arborization = std::holds_alternative<model::Weights>(c.pattern) ? "one synapse for each number"
                                                                                : describe(c.arborization),

@@ -48,6 +48,7 @@ struct ConnectionDescription {
     std::string kind;            ///< excitatory, inhibitory, modulatory or an input, and " from " a state
     std::size_t synapses = 0;
     std::string form;  ///< how it is computed: "window", "list", ...
+    double cost = 0;   ///< about how long a cycle of it takes, ns
     /// Which cells are paired, how a pair spreads into synapses, and how attenuation and delay follow from
     /// the distance; "none" for attenuations and delays that are 0.
     std::string pattern, arborization, attenuation, delay;
