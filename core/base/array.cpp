@@ -258,6 +258,9 @@ void Array::read_rows(TableReader& reader, Form form, std::string_view column, b
     for (bool first = true; reader.next(); first = false) {
         const auto& fields = reader.fields();
         if (fields.empty()) continue;
+        if (first && reader.row().find_first_of("[];") != std::string_view::npos)
+            reader.refuse(reader.row(), "a row has numbers and ',' or blanks between them",
+                          "each row stands on a line of its own, without brackets or ';'");
         const int line = reader.place(reader.row()).first;
         const auto take = [&](std::string_view field) {
             const bool none = field.empty() || is_nan_word(field);

@@ -360,7 +360,9 @@ class Compiler {
                    : is_input(name)
                        ? (names_.synapse ? "a synapse reads pre and post" : "a neuron reads exc, inh and mod")
                    : is_unit(name) ? fmt::format("units are numbers that you name: {} = ...", name)
-                   : is_equation_name(name)
+                   : names_.synapse && name == "weight"
+                       ? "a state has a first value: <State name=\"weight\" value=\"1\"/>"
+                   : sound_ && is_equation_name(name)
                        ? fmt::format("{}; a constant of its own is <Constant name=\"{}\" value=\"...\"/>",
                                      hint, name)
                        : hint;

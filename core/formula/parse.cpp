@@ -238,7 +238,8 @@ class Parser {
             std::vector<std::string> known;
             if (in_equation_) known.assign(draws.begin(), draws.end());
             for (const auto& each : functions) known.emplace_back(each.name);
-            const std::string hint = hint_for_function(name);
+            std::string hint = hint_for_function(name);
+            if (in_equation_ && take("t")) hint = fmt::format("its value in this cycle is written {}", name);
             fail(at, fmt::format("there is no function '{}'", name),
                  hint.empty() ? suggest(name, known) : hint);
         }

@@ -212,9 +212,10 @@ void ArrayCheck::weights(const Connection& c, const SynapseType* type, int sourc
     for (const auto& s : type->states)
         if (!s.output) states.push_back(s.name);
     if (std::ranges::find(states, "weight") == states.end())
-        out_.error(synapse_of(c).at,
-                   fmt::format("{} has no state 'weight' that <Weights> could set", type->name),
-                   "leave out <Synapse>, or use a type that has one, such as synapseHebbian");
+        out_.error(
+            synapse_of(c).at, fmt::format("{} has no state 'weight' that <Weights> could set", type->name),
+            type->declared ? "call the state of the type that <Weights> fill 'weight'"
+                           : "leave out <Synapse>, or use a type that has one, such as synapseHebbian");
     if (c.synapse)
         for (const auto& i : c.synapse->initial)
             if (i.state == "weight")
@@ -229,14 +230,21 @@ void ArrayCheck::value(const Initial& i, const Process* scope) {
     }
 }
 
-void ArrayCheck::initial(const TypeUse& use, const std::vector<std::string>& states, const Process* scope,
-                         std::size_t rows, std::size_t columns) {
+void ArrayCheck::initial(const TypeUse& use, const std::vector<std::string>& states,
+                         const std::vector<std::string>& parameters, const Process* scope, std::size_t rows,
+                         std::size_t columns) {
     std::map<std::string_view, int> first_line;
     for (const auto& i : use.initial) {
         if (std::ranges::find(states, i.state) == states.end())
-            out_.error(
-                i.state_at, fmt::format("{} has no state '{}' that begins with a value", use.type, i.state),
-                states.empty() ? fmt::format("{} keeps no numbers", use.type) : suggest(i.state, states));
+            out_.error(i.state_at,
+                       fmt::format("{} has no state '{}' that begins with a value", use.type, i.state),
+                       std::ranges::find(parameters, i.state) != parameters.end()
+                           ? fmt::format("'{}' is a parameter, which is the same in all cells; a state of a "
+                                         "type in the file "
+                                         "that no equation changes can differ",
+                                         i.state)
+                       : states.empty() ? fmt::format("{} keeps no numbers", use.type)
+                                        : suggest(i.state, states));
         else if (const auto [it, fresh] = first_line.emplace(i.state, i.at.line); !fresh)
             out_.error(i.state_at,
                        fmt::format("state '{}' is given twice, first on line {}", i.state, it->second),

@@ -44,8 +44,9 @@ class ArrayCheck {
     void weights(const Connection& connection, const SynapseType* type, int sources, int targets);
     /// The values with which the states of a use of a type begin. A file has `rows` x `columns` numbers:
     /// cells x 1, or target cells x source cells.
-    void initial(const TypeUse& use, const std::vector<std::string>& states, const Process* scope,
-                 std::size_t rows, std::size_t columns);
+    void initial(const TypeUse& use, const std::vector<std::string>& states,
+                 const std::vector<std::string>& parameters, const Process* scope, std::size_t rows,
+                 std::size_t columns);
 
   private:
     bool is_sound(const std::string& file, const Location& file_at, const ArrayHandle& array);

@@ -270,7 +270,8 @@ class Validator {
         if (const NeuronType* type = registry_.neuron(group.neuron.type)) {
             check_settings(group.neuron, type->parameters);
             check_with_type(group.neuron, *type, trim(group.name));
-            arrays_.initial(group.neuron, names_of(type->states), scope_, cells_of(&group), 1);
+            arrays_.initial(group.neuron, names_of(type->states), names_of(type->parameters), scope_,
+                            cells_of(&group), 1);
         } else {
             const auto unknown =
                 unknown_type("neuron", group.neuron.type, names(registry_.neurons()), registry_);
@@ -473,7 +474,8 @@ class Validator {
             std::vector<std::string> states;  // the output is computed before anything reads it
             for (const auto& s : type->states)
                 if (!s.output) states.push_back(s.name);
-            arrays_.initial(use, states, scope_, cells_of(target), cells_of(source));
+            arrays_.initial(use, states, names_of(type->parameters), scope_, cells_of(target),
+                            cells_of(source));
         } else {
             const auto unknown = unknown_type("synapse", use.type, names(registry_.synapses()), registry_);
             out_.error(use.at, unknown.message, unknown.hint);
