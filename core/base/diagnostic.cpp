@@ -144,7 +144,8 @@ std::string_view nearest(std::string_view name, std::span<const std::string> can
             best_distance)
             continue;
         const std::size_t d = distance(name, candidate);
-        const bool alike = d < std::min(name.size(), candidate.size());
+        const bool alike = d < std::min(name.size(), candidate.size()) ||
+                           (d == 1 && std::max(name.size(), candidate.size()) > 1);
         if (alike && d < best_distance) best_distance = d, best = candidate;
     }
     if (best.empty() && name.size() >= 3)  // an abbreviation

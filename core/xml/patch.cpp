@@ -29,7 +29,8 @@ std::string place_of(const SourceElement& e) {
 /// Whether the first attribute that the writer gives an element is its id or its name (of a state, too).
 bool has_own_name(std::string_view name) {
     return is_item(name) || is_canvas_part(name) || name == "Parameter" || name == "XRef" ||
-           name == "Constant" || name == "Initial";
+           name == "Constant" || name == "Initial" || name == "NeuronType" || name == "SynapseType" ||
+           name == "State";
 }
 
 /// What two elements of the writer share that are the same one before and after a change. Elements without a

@@ -5,6 +5,7 @@
 
 #include "core/base/output_files.h"
 #include "core/equations/declared_types.h"
+#include "core/equations/plugin_source.h"
 #include "core/model/arrays.h"
 #include "core/model/lookup.h"
 #include "core/xml/reader.h"
@@ -69,6 +70,21 @@ SystemFile parse_system(const std::string& text, const std::string& path, std::v
     Diagnostics diagnostics;
     auto model = xml::parse_system(path, text, diagnostics);
     return make_file(std::move(model), path, std::move(plugins), std::move(diagnostics), warnings);
+}
+
+std::string plugin_source(const SystemFile& file, const std::string& type) {
+    std::vector<std::string> names;
+    Diagnostics diagnostics;
+    for (const auto* all : {&file.model.neuron_types, &file.model.synapse_types})
+        for (const auto& d : *all) try {
+                names.push_back(d.name);
+                if (d.name == type)
+                    return equations::plugin_source(d, all == &file.model.synapse_types, *file.types);
+            } catch (const FormulaError& e) {
+                diagnostics.error(equations::place(d, e.at), e.what(), e.hint);
+            }
+    throw_errors(diagnostics);
+    throw InputError(fmt::format("the system declares no type '{}'", type), suggest(type, names));
 }
 
 std::string text_of(const SystemFile& file) { return xml::write_system(file.model); }

@@ -4,12 +4,11 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <forage/system.h>
 
 #include "core/base/output_files.h"
 #include "core/base/print.h"
 #include "core/base/separated.h"
-#include "core/equations/declared_types.h"
-#include "core/equations/plugin_source.h"
 #include "core/model/arrays.h"
 #include "core/model/build.h"
 #include "core/model/edit.h"
@@ -78,28 +77,6 @@ std::string process_id(const model::System& system, const std::string& wanted, D
     return {};
 }
 
-/// The source of a plugin for a type that the system declares.
-std::string plugin_of(const model::System& system, const std::string& name, Registry types,
-                      Diagnostics& diagnostics) {
-    equations::add_types(system, types, diagnostics);
-    if (diagnostics.failed()) return {};
-    std::vector<std::string> names;
-    for (const auto* all : {&system.neuron_types, &system.synapse_types})
-        for (const auto& type : *all) {
-            names.push_back(type.name);
-            if (type.name != name) continue;
-            try {
-                return equations::plugin_source(type, all == &system.synapse_types, types);
-            } catch (const FormulaError& e) {
-                diagnostics.error(equations::place(type, e.at), e.what(), e.hint);
-                return {};
-            }
-        }
-    diagnostics.error({}, fmt::format("--as-plugin: the system declares no type '{}'", name),
-                      suggest(name, names));
-    return {};
-}
-
 /// The text of the file to write, and `notes` for users. They have no meaning when there are errors.
 std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& diagnostics) {
     const bool to_process = is_process_file(o.output);
@@ -115,10 +92,10 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
         if (o.original) model::make_original(*file, diagnostics);
         return xml::write_process(*file);
     }
+    if (!o.as_plugin.empty()) return plugin_source(read_system(o.input, o.plugins), o.as_plugin);
     auto system = xml::read_system(o.input, diagnostics);
     const auto plugins = plugins_to_read(o.plugins, o.input, diagnostics);  // their parameters may name files
     if (!system) return {};
-    if (!o.as_plugin.empty()) return plugin_of(*system, o.as_plugin, known_types(plugins), diagnostics);
     for (const auto& path : o.imports)
         if (auto file = xml::read_process(path, diagnostics); file && !diagnostics.failed()) try {
                 notes += about_import(*system, model::import_process(*system, std::move(*file)));

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "core/connectivity/connect.h"
+#include "core/equations/declared_types.h"
 #include "core/model/lookup.h"
 #include "core/model/validate.h"
 #include "core/xml/reader.h"
@@ -39,6 +40,7 @@ void check_system(const fs::path& file) {
     add_neurons(registry);
     add_synapses(registry);
     Diagnostics checked;
+    equations::add_types(*system, registry, checked);
     model::validate(*system, registry, checked);
     for (const auto& d : checked.all()) {
         INFO(format(d));

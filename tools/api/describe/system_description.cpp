@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/number.h"
 #include "core/model/constants.h"
 #include "core/model/lookup.h"
 
@@ -150,9 +149,7 @@ DeclarationDescription describe(const model::TypeDeclaration& type, std::string 
                                 model::Constants& constants) {
     DeclarationDescription out{std::move(kind), type.name, type.doc, {}, {}, model::equation_lines(type)};
     for (const auto& c : type.constants) {
-        const auto value =
-            in_braces(c.value) ? constants.value(c.value, nullptr) : parse_number<double>(c.value);
-        out.constants.push_back({c.name, value.value_or(0), c.unit, c.doc});
+        out.constants.push_back({c.name, constants.value(c.value, nullptr).value_or(0), c.unit, c.doc});
     }
     for (const auto& s : type.states)
         if (!s.value.empty()) out.states.emplace_back(s.name, s.value);

@@ -44,6 +44,9 @@ SystemFile parse_system(const std::string& text, const std::string& path,
 /// for what is wrong with it, and then changes nothing.
 void declare_neuron_type(SystemFile& file, model::TypeDeclaration type);
 void declare_synapse_type(SystemFile& file, model::TypeDeclaration type);
+/// The C++ source of a plugin that computes what a type declared in the system does, to the bit. Throws
+/// InputError when there is no such type, or for what plugins cannot do.
+std::string plugin_source(const SystemFile& file, const std::string& type);
 
 /// Carries out an operation of an editor or a list of them, JSON as in the command `edit` of the studio
 /// (docs/design/studio-protocol.md): all of them, or none when one is refused. Returns a JSON list of what

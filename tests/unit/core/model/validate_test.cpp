@@ -201,8 +201,8 @@ TEST_CASE("A module's cross references must be set, known, once, and lead to gro
     CHECK(one(in, "<XRef name=\"_inn\" target=\"a\"/>", true) ==
           "8:41: error: moduleTest has no cross reference '_inn' in InputFromGroup | did you mean '_in'?");
     CHECK(one(in, "<XRef name=\"_in\" target=\"z\"/>", true) ==
-          "8:41: error: cross reference '_in' leads to 'z', which is not the id of a group | did you mean "
-          "'a'?");
+          "8:41: error: cross reference '_in' leads to 'z', which is not the id of a group | ids are "
+          "the id attributes of <Group> elements");
     CHECK(one(in, in + in, true) ==
           "8:70: error: cross reference '_in' is given twice, first on line 8 | remove one of them");
 }

@@ -59,8 +59,9 @@ bool only_in(const std::string& before, const std::string& after, const std::str
            after.size() >= begin + before.size() - end;
 }
 
-xml::Patch patch(const std::string& text, const model::System& before, const model::System& after) {
-    auto out = xml::patch("test.iqr", text, before, after);
+xml::Patch patch(const std::string& text, const model::System& before, const model::System& after,
+                 const std::string& path = "test.iqr") {
+    auto out = xml::patch(path, text, before, after);
     CHECK(out.extent == xml::Extent::least);
     REQUIRE(out.system);
     return out;
@@ -253,7 +254,12 @@ TEST_CASE("an edit changes the lines of its item only, in every file", "[long]")
         const auto before = read_text(text, file.string());
         const auto attempt = [&](const std::string& id, const Edit& edit) {
             auto after = before;
-            edit.apply(after);
+            try {
+                edit.apply(after);
+            } catch (const std::invalid_argument& e) {  // a connection with weights may have no <Synapse>
+                CHECK(std::string(e.what()).ends_with("has no synapse"));
+                return;
+            }
             const auto made = xml::patch(file.string(), text, before, after);
             if (made.extent == xml::Extent::least && only_in(text, made.text, id)) return;
             INFO(file.string() << " " << id << " " << edit.name << "\n" << format(made.diagnostics));
@@ -289,7 +295,7 @@ TEST_CASE("what is added stands between lines that stay, and what is removed goe
         const auto g = model::add_group(after, p, "A", 2, 2, "neuronLinearThreshold");
         const auto h = model::add_group(after, own->id, "B", 2, 2, "neuronLinearThreshold");
         const auto c = model::add_connection(after, g, h, InputKind::inhibitory, "synapseFixedWeight");
-        const auto more = patch(text, before, after);
+        const auto more = patch(text, before, after, file.string());
         CHECK(is_subsequence(lines(text), lines(more.text)));
         const auto root = xml::scan(more.text);
         const auto of_c = *xml::find_item(root, c), of_h = *xml::find_item(root, h);
@@ -300,13 +306,13 @@ TEST_CASE("what is added stands between lines that stay, and what is removed goe
 
         auto again = *more.system;
         for (const auto& id : {p, h}) model::remove(again, id);
-        CHECK(patch(more.text, *more.system, again).text == text);
+        CHECK(patch(more.text, *more.system, again, file.string()).text == text);
 
         for (const auto& process : before.processes) {
             auto less = before;
             if (process.linked()) continue;
             model::remove(less, process.groups.empty() ? process.id : process.groups.front().id);
-            const auto made = patch(text, before, less);
+            const auto made = patch(text, before, less, file.string());
             // Cross references of a module to the group become empty, so their lines change.
             if (std::ranges::none_of(before.processes, [](const auto& q) { return q.module.has_value(); }))
                 CHECK(is_subsequence(lines(made.text), lines(text)));
