@@ -56,18 +56,21 @@ std::optional<std::vector<Assignment>> parameter_changes(const System& before, c
             out.push_back({owner, id, &p, value, fmt::format("{}.{}={}", name, p.name, to_text(value)), {}});
         }
     };
+    const auto differ = [](const TypeUse& a, const TypeUse& b) {
+        return !(a == b) || a.defaults != b.defaults;
+    };
     for (std::size_t i = 0; i < after.processes.size(); ++i) {
         const auto &was = before.processes[i], &is = after.processes[i];
         if (is.module && !(was.module == is.module))
             add(Assignment::Owner::process, is.id, trim(is.name), *was.module, *is.module);
         for (std::size_t k = 0; k < is.groups.size(); ++k)
-            if (!(was.groups[k].neuron == is.groups[k].neuron))
+            if (differ(was.groups[k].neuron, is.groups[k].neuron))
                 add(Assignment::Owner::group, is.groups[k].id, path(after, is, is.groups[k]),
                     was.groups[k].neuron, is.groups[k].neuron);
     }
     for (std::size_t i = 0; i < after.connections.size(); ++i) {
         const auto &was = before.connections[i], &is = after.connections[i];
-        if (is.synapse && was.synapse != is.synapse)
+        if (is.synapse && differ(*was.synapse, *is.synapse))
             add(Assignment::Owner::connection, is.id, unique_name(after, is), *was.synapse, *is.synapse);
     }
     return out;

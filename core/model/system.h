@@ -71,7 +71,9 @@ struct TypeUse {
     std::vector<Setting> defaults = {};
     /// The setting that holds for a parameter; null when the type's own default does.
     const Setting* setting(std::string_view parameter) const;
-    friend bool operator==(const TypeUse&, const TypeUse&) = default;
+    friend bool operator==(const TypeUse& a, const TypeUse& b) {  // `defaults` follow from other members
+        return a.type == b.type && a.settings == b.settings && a.note == b.note && a.initial == b.initial;
+    }
 };
 
 /// A state of a type that a system declares.

@@ -139,7 +139,13 @@ int convert(const ConvertOptions& options) {
     const bool prints = is_standard_output(options.output);
     if (!prints) check_output(options.output, "copy.iqr", diagnostics);
     std::string notes;
-    const std::string text = converted(options, notes, diagnostics);
+    std::string text;
+    try {
+        text = converted(options, notes, diagnostics);
+    } catch (const InputError& e) {
+        print(stderr, "{}", e.what());
+        return bad_input;
+    }
     print(stderr, "{}", format(diagnostics));
     if (diagnostics.failed()) return bad_input;
     if (!prints) write_file(options.output, text);

@@ -148,7 +148,12 @@ int schema(const SchemaOptions& options) {
 }
 
 int types(const std::string& name, const std::vector<std::string>& plugins) {
-    if (name.ends_with(".iqr")) return types_of_file(name, plugins);
+    if (name.ends_with(".iqr")) try {
+            return types_of_file(name, plugins);
+        } catch (const InputError& e) {
+            print(stderr, "{}", e.what());
+            return bad_input;
+        }
     const auto found = registry_with(plugins);
     if (!found) return bad_input;
     const Registry& registry = *found;
