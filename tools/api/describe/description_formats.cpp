@@ -39,7 +39,7 @@ std::string text_of(const ConstantDescription& c) {
 std::string form_of(const ConnectionDescription& c) {
     if (c.cost <= 0) return c.form;
     return c.cost < 10000 ? fmt::format("{}, {:.0f} ns per cycle", c.form, c.cost)
-                         : fmt::format("{}, {:.0f} us per cycle", c.form, c.cost / 1000);
+                          : fmt::format("{}, {:.0f} us per cycle", c.form, c.cost / 1000);
 }
 
 std::string module_of(const ProcessDescription& process) {

@@ -111,7 +111,7 @@ void each_change(const std::function<void(const System&, const System&, const st
         INFO(what);
         if (what == "the initial values" &&
             after.processes[0].module->initial.size() + after.processes[1].module->initial.size() > 0)
-            continue;  // modules have none
+            continue;                                       // modules have none
         if (what == "the constants of the type") continue;  // they follow from the constants of the system
         f(before, after, what, means);
     }
