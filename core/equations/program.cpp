@@ -184,7 +184,7 @@ Program::Value Program::add(const Node& node) {
         std::tuple(node.kind, node.op, node.a, node.b, node.c, std::bit_cast<std::uint64_t>(node.value));
     const auto [it, fresh] = known_.emplace(key, static_cast<Value>(values_.size()));
     if (fresh) {
-        if (values_.size() >= most_values) throw FormulaError(0, "the equations have too many operations");
+        if (values_.size() >= max_values) throw FormulaError(0, "the equations have too many operations");
         values_.push_back(node);
     }
     return it->second;

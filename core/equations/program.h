@@ -20,7 +20,7 @@ class Program {
   public:
     /// A number that the program reads or computes.
     using Value = std::uint16_t;
-    static constexpr std::size_t most_values = 10'000;
+    static constexpr std::size_t max_values = 10'000;
 
     // Building it. The operands of an operation exist before it.
     Value number(double value);
