@@ -849,8 +849,14 @@ class Others(Cli):
         pictures.check(self, self.here / "forage-out/robot_learns.gif", PROJECT / "docs/pictures/robot_learns.gif", "rewrite it with ./tools/update-docs")
 
     def test_shipped_floors_are_what_their_script_draws(self):
-        script = PROJECT / "systems" / "worlds" / "make_floors.py"
-        self.assertEqual(subprocess.run([sys.executable, script, "--check"], capture_output=True).returncode, 0)
+        self.assert_made_by("worlds/make_floors.py")
+
+    def test_tables_of_models_are_what_their_script_makes(self):
+        self.assert_made_by("models/make_tables.py")
+
+    def assert_made_by(self, script):
+        done = subprocess.run([sys.executable, PROJECT / "systems" / script, "--check"], capture_output=True, text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
 
 
 @unittest.skipUnless((SHARED / "original").exists(), "the original's files are absent")
