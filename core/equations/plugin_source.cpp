@@ -121,10 +121,7 @@ class Writer {
     template <class Type>
     std::string write(const Type& type) {
         for (const auto& p : type.parameters) parameters_.insert(p.name);
-        for (const auto& s : type.states) {
-            states_.insert(s.name);
-            if (s.output) output_ = s.name;
-        }
+        for (const auto& s : type.states) states_.insert(s.name);
         const std::string update = body();
         std::string out =
             fmt::format("// {}{}{}\n#include <algorithm>\n#include <cmath>\n\n#include <forage/plugin.h>\n\n",
@@ -243,7 +240,6 @@ class Writer {
             return out +
                    fmt::format("{}{}{}{} = {};\n", indent, condition, fresh ? "double " : "", s.name, value);
         }
-        written_.insert(s.name);
         return out + fmt::format("{}{}now.{} = {};\n", indent, condition, s.name, value);
     }
     std::string when(bool next) { return fmt::format("when_{}", whens_ += next); }
@@ -299,9 +295,8 @@ class Writer {
     const model::TypeDeclaration& d_;
     bool synapse_;
     std::vector<Statement> statements_;
-    std::set<std::string> parameters_, states_, values_, written_;
+    std::set<std::string> parameters_, states_, values_;
     std::map<std::string, std::pair<std::string, int>> targets_;  ///< state and age, by member
-    std::string output_;
     int draws_ = 0, whens_ = 0;
     bool uses_dt_ = false, in_output_ = false;
 };
