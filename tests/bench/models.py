@@ -23,9 +23,9 @@ IZHIKEVICH = """<?xml version="1.0" encoding="UTF-8"?>
     <State name="v" value="-65"/>
     <State name="I"/>
     <Equations>
-      ms = 0.001
-      dv/dt = (0.04 * v^2 + 5 * v + 140 - u + I) / ms
-      du/dt = 0.02 * (0.2 * v - u) / ms
+      per_ms = 1000
+      dv/dt = per_ms * (0.04 * v^2 + 5 * v + 140 - u + I)
+      du/dt = 0.02 * per_ms * (0.2 * v - u)
       spike = v' >= 30
       when spike: v' = -65, u' = u' + 8
       output spike
