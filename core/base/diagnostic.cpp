@@ -115,6 +115,8 @@ std::string format(const Diagnostic& d) {
     out += fmt::format("{}: {}\n", d.severity == Severity::error ? "error" : "warning",
                        plain(d.message, readable));
     if (d.where.file && d.where.line > 0) out += excerpt(d.where);
+    if (d.where.file && !d.where.file->used.empty())
+        out += fmt::format("  used at {}\n", plain(d.where.file->used, readable));
     if (!d.hint.empty()) out += fmt::format("  hint: {}\n", plain(d.hint, readable));
     return out;
 }

@@ -14,8 +14,9 @@ namespace forage {
 
 /// A file that was read for a user.
 struct SourceFile {
-    std::string path;  ///< as the user wrote it
-    std::string text;  ///< may end early, as it is used for excerpts only
+    std::string path;       ///< as the user wrote it
+    std::string text;       ///< may end early, as it is used for excerpts only
+    std::string used = {};  ///< where another file uses it: "file:line"; empty for a file that stands alone
 };
 
 /// A place in a file. `line` and `column` (in bytes) count from 1; 0 means the file as a whole. A location
@@ -94,6 +95,7 @@ class Diagnostics {
     void add(Diagnostic diagnostic) {
         constexpr std::size_t most = 1000;  // a file with a million mistakes must not take a gigabyte
         const bool is_error = diagnostic.severity == Severity::error;
+        if (is_of_another_use(diagnostic)) return;
         ++(is_error ? errors_ : warnings_);
         // The first error is kept even after many warnings.
         if (all_.size() < most || (is_error && errors_ == 1)) all_.push_back(std::move(diagnostic));
@@ -107,6 +109,17 @@ class Diagnostics {
     bool lenient = false;
 
   private:
+    /// Whether this mistake in a file was found before, where the file is used for another time.
+    bool is_of_another_use(const Diagnostic& d) const {
+        if (!d.where.file || d.where.file->used.empty()) return false;
+        for (const Diagnostic& known : all_)
+            if (known.where.file && known.where.file->path == d.where.file->path &&
+                known.where.line == d.where.line && known.where.column == d.where.column &&
+                known.message == d.message)
+                return true;
+        return false;
+    }
+
     std::vector<Diagnostic> all_;
     int errors_ = 0, warnings_ = 0;
 };

@@ -67,15 +67,17 @@ void forget_groups(System& system, const IdSet& ids) {
 
 /// Gives the ids of items, and all references to groups, the first prefix with which no id is in `system`:
 /// `prefix`, or `further` with a number from 2. Returns it.
-std::string add_prefix(const System& system, std::string prefix, std::string_view further,
-                       std::span<Process> processes, std::span<Connection> connections,
-                       std::span<CanvasComment> comments) {
+std::string add_free_prefix(const System& system, std::string prefix, std::string_view further,
+                            std::span<Process> processes, std::span<Connection> connections,
+                            std::span<CanvasComment> comments) {
     std::vector<std::string*> ids, references;
     for (auto& p : processes) {
         ids.push_back(&p.id);
         for (auto& g : p.groups) ids.push_back(&g.id);
         for (auto& c : p.canvas_comments) ids.push_back(&c.id);
         for (auto& f : p.phantoms) references.push_back(&f.group);
+        for (auto& port : p.ports) references.push_back(&port.group);
+        references.push_back(&p.within);
         if (p.module)
             for (auto* side : {&p.module->inputs, &p.module->outputs})
                 for (auto& r : *side) references.push_back(&r.target);
@@ -92,6 +94,16 @@ std::string add_prefix(const System& system, std::string prefix, std::string_vie
     for (auto* reference : references)
         if (!reference->empty()) *reference = prefix + *reference;
     return prefix;
+}
+
+/// Adds the types of another system that a system lacks.
+void take_over_types(System& system, System& other) {
+    const auto take_over = [](auto& all, auto& more) {
+        for (auto& type : more)
+            if (std::ranges::find(all, type) == all.end()) all.push_back(std::move(type));
+    };
+    take_over(system.neuron_types, other.neuron_types);
+    take_over(system.synapse_types, other.synapse_types);
 }
 
 /// Throws for a linked process: its content is in its own file, so changes would be lost.
@@ -223,6 +235,10 @@ void remove(System& system, std::string_view id) {
     forget_phantoms(system);
 }
 
+void add_prefix(const std::string& prefix, std::span<Process> processes, std::span<Connection> connections) {
+    add_free_prefix(System(), prefix, {}, processes, connections, {});
+}
+
 std::string make_ids_unique(const System& system, std::span<Process> processes,
                             std::span<Connection> connections) {
     IdSet groups;
@@ -236,16 +252,18 @@ std::string make_ids_unique(const System& system, std::span<Process> processes,
         std::erase_if(p.phantoms, [&](const Phantom& f) { return !groups.contains(f.group); });
         keep_references(p, [&](const std::string& target) { return groups.contains(target); });
     }
-    return add_prefix(system, "CB1", "CB{}", processes, connections, {});
+    return add_free_prefix(system, "CB1", "CB{}", processes, connections, {});
 }
 
 std::string import_process(System& system, ProcessFile file) {
-    make_ids_unique(system, {&file.process, 1}, file.connections);
-    file.process.path.clear();
-    file.process.placeholder.clear();
-    system.processes.push_back(std::move(file.process));
-    for (auto& c : file.connections) system.connections.push_back(std::move(c));
-    return system.processes.back().id;
+    System content = system_of(std::move(file));
+    embed_links(content);
+    make_ids_unique(system, content.processes, content.connections);
+    std::string id = content.processes.front().id;
+    take_over_types(system, content);
+    for (auto& p : content.processes) system.processes.push_back(std::move(p));
+    for (auto& c : content.connections) system.connections.push_back(std::move(c));
+    return id;
 }
 
 void join(System& system, System other) {
@@ -253,13 +271,8 @@ void join(System& system, System other) {
     if (!agree(system.constants, other.constants)) write_out_formulas(other);
     for (auto& c : other.constants)
         if (!find_constant(system, c.name)) system.constants.push_back(std::move(c));
-    const auto take_over = [](auto& all, auto& more) {
-        for (auto& type : more)
-            if (std::ranges::find(all, type) == all.end()) all.push_back(std::move(type));
-    };
-    take_over(system.neuron_types, other.neuron_types);
-    take_over(system.synapse_types, other.synapse_types);
-    add_prefix(system, "", "S{}_", other.processes, other.connections, other.canvas_comments);
+    take_over_types(system, other);
+    add_free_prefix(system, "", "S{}_", other.processes, other.connections, other.canvas_comments);
     const auto named = [&](const std::string& name) {
         return std::ranges::any_of(system.processes,
                                    [&](const auto& p) { return trim(p.name) == trim(name); });
@@ -282,14 +295,32 @@ ProcessFile extract_process(const System& system, std::string_view id) {
     out.process.phantoms.clear();
     const auto groups = group_ids(*it);
     keep_references(out.process, [&](const std::string& target) { return groups.contains(target); });
+    const auto open_port = [&](const std::string& group) {
+        auto& ports = out.process.ports;
+        if (groups.contains(group) && std::ranges::find(ports, group, &Port::group) == ports.end())
+            ports.push_back({.name = group, .group = group, .at = {}, .name_at = {}, .group_at = {}});
+    };
     for (const auto& c : system.connections)
         if (groups.contains(c.source) && groups.contains(c.target)) {
             out.connections.push_back(c);
             out.connections.back().linked = false;
+        } else {
+            open_port(c.source), open_port(c.target);
         }
     for (const auto& c : system.constants)  // on which its formulas may depend
         if (std::ranges::find(it->constants, c.name, &Constant::name) == it->constants.end())
             out.process.constants.push_back(c);
+    const auto copy_used = [](const auto& all, auto& to, auto is_used) {
+        std::ranges::copy_if(all, std::back_inserter(to),
+                             [&](const TypeDeclaration& type) { return is_used(type.name); });
+    };
+    copy_used(system.neuron_types, out.neuron_types, [&](const std::string& name) {
+        return std::ranges::any_of(it->groups, [&](const Group& g) { return g.neuron.type == name; });
+    });
+    copy_used(system.synapse_types, out.synapse_types, [&](const std::string& name) {
+        return std::ranges::any_of(out.connections,
+                                   [&](const Connection& c) { return synapse_of(c).type == name; });
+    });
     return out;
 }
 
@@ -297,7 +328,9 @@ System system_of(ProcessFile file) {
     System out;
     out.name = file.process.name;
     out.processes.push_back(std::move(file.process));
+    for (auto& p : file.parts) out.processes.push_back(std::move(p));
     out.connections = std::move(file.connections);
+    out.neuron_types = std::move(file.neuron_types), out.synapse_types = std::move(file.synapse_types);
     return out;
 }
 
@@ -311,12 +344,18 @@ void make_original(ProcessFile& file, Diagnostics& diagnostics) {
     compute(alone, diagnostics);
     refuse_extensions(alone, diagnostics);
     make_original(alone);
-    file = {std::move(alone.processes.front()), std::move(alone.connections)};
+    file.process = std::move(alone.processes.front()), file.connections = std::move(alone.connections);
 }
 
 void embed_links(System& system) {
-    for (auto& p : system.processes) p.path.clear(), p.placeholder.clear();
+    const auto depends_on_place = [](const Process& p) {
+        return !p.within.empty() || std::ranges::any_of(p.constants, &Constant::given);
+    };
+    if (std::ranges::any_of(system.processes, depends_on_place)) settle_constants(system);
+    for (auto& p : system.processes) p.path.clear(), p.placeholder.clear(), p.within.clear(), p.ports.clear();
     for (auto& c : system.connections) c.linked = false;
+    for (auto* types : {&system.neuron_types, &system.synapse_types})
+        for (auto& type : *types) type.linked = false;
 }
 
 void complete(std::span<Process> processes, std::span<Connection> connections) {

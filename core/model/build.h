@@ -53,6 +53,9 @@ void forget_phantoms(System& system);
 /// there is no item with this id or the item is in the file of a linked process.
 void rename(System& system, std::string_view id, std::string name);
 
+/// Gives all ids, and all references to groups, a prefix.
+void add_prefix(const std::string& prefix, std::span<Process> processes, std::span<Connection> connections);
+
 /// Gives all ids a prefix CB<n>, as the original does, so that none of them is in `system`. References to
 /// groups that are not among `processes` become unset, and places of their phantoms are forgotten. Throws
 /// std::invalid_argument when a connection has no group there. Returns the prefix.
@@ -74,7 +77,8 @@ void join(System& system, System other);
 /// with this id.
 ProcessFile extract_process(const System& system, std::string_view id);
 
-/// Makes the content of linked processes part of the system. No process is linked afterwards.
+/// Makes the content of linked processes part of the system. No process is linked afterwards. Constants
+/// that parts are given become the numbers that they have.
 void embed_links(System& system);
 
 /// The process as a system of its own.

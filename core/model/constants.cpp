@@ -10,6 +10,7 @@
 #include "core/base/number.h"
 #include "core/model/arrays.h"
 #include "core/model/lookup.h"
+#include "core/model/parts.h"
 
 namespace forage::model {
 namespace {
@@ -23,10 +24,12 @@ struct Circle {
 
 std::vector<std::string> names_in(const System& system, const Process* process) {
     std::vector<std::string> out;
-    for (const auto* all : {process ? &process->constants : nullptr, &system.constants})
-        if (all)
-            for (const auto& c : *all)
-                if (std::ranges::find(out, c.name) == out.end()) out.push_back(c.name);
+    const auto add = [&](const std::vector<Constant>& all) {
+        for (const auto& c : all)
+            if (std::ranges::find(out, c.name) == out.end()) out.push_back(c.name);
+    };
+    for (; process; process = outer(system, *process)) add(process->constants);
+    add(system.constants);
     out.emplace_back("dt");
     return out;
 }
@@ -47,6 +50,25 @@ std::pair<const Constant*, const Process*> find_in(const System& system, std::st
     return {};
 }
 
+/// Calls f(struct) with everything in a connection whose numbers may have formulas.
+template <class F>
+void each_with_formulas(Connection& c, F f) {
+    const auto variant = [&](auto& alternatives) {
+        std::visit(
+            [&](auto& one) {
+                if constexpr (requires { one.formulas; }) f(one);
+            },
+            alternatives);
+    };
+    std::visit(
+        [&](auto& pattern) {
+            if constexpr (requires { pattern.source; }) variant(pattern.source), variant(pattern.target);
+        },
+        c.pattern);
+    f(c.arborization);
+    variant(c.arborization.shape), variant(c.attenuation.form), variant(c.delay.form);
+}
+
 /// Calls f(struct, process) with everything in the items of a system whose numbers may have formulas. The
 /// constants of `process` hold there; it is null where only those of the system do.
 template <class F>
@@ -57,20 +79,7 @@ void each_with_formulas(System& system, F f) {
     const GroupIndex groups(system);
     for (auto& c : system.connections) {
         const Process* process = scope_of(c, groups);
-        const auto variant = [&](auto& alternatives) {
-            std::visit(
-                [&](auto& one) {
-                    if constexpr (requires { one.formulas; }) f(one, process);
-                },
-                alternatives);
-        };
-        std::visit(
-            [&](auto& pattern) {
-                if constexpr (requires { pattern.source; }) variant(pattern.source), variant(pattern.target);
-            },
-            c.pattern);
-        f(c.arborization, process);
-        variant(c.arborization.shape), variant(c.attenuation.form), variant(c.delay.form);
+        each_with_formulas(c, [&](auto& s) { f(s, process); });
     }
 }
 
@@ -158,8 +167,14 @@ bool compute_numbers(Constants& constants, Struct& s, const Process* process, Di
 }  // namespace
 
 const Process* scope_of(const Connection& connection, const GroupIndex& groups) {
-    const Process* process = groups.find(connection.source).process;
-    return process == groups.find(connection.target).process ? process : nullptr;
+    const System& system = groups.system();
+    const Process* source = groups.find(connection.source).process;
+    for (; source; source = outer(system, *source)) {
+        const Process* target = groups.find(connection.target).process;
+        while (target && target != source) target = outer(system, *target);
+        if (target) return source;
+    }
+    return nullptr;
 }
 
 Location inside(Location value, std::size_t offset) {
@@ -168,8 +183,13 @@ Location inside(Location value, std::size_t offset) {
 }
 
 Constants::Defined Constants::find(std::string_view name, const Process* process) const {
-    const Constant* own = process ? named(process->constants, name) : nullptr;
-    return own ? Defined{own, process} : Defined{named(system_.constants, name), nullptr};
+    for (; process; process = outer(system_, *process))
+        if (const Constant* own = named(process->constants, name)) return {own, process};
+    return {named(system_.constants, name), nullptr};
+}
+
+const Process* Constants::scope_of(const Constant& constant, const Process* process) const {
+    return constant.given ? outer(system_, *process) : process;
 }
 
 double Constants::value_of(const Defined& defined) {
@@ -180,7 +200,7 @@ double Constants::value_of(const Defined& defined) {
     auto& out = known_[defined.constant];
     open_.push_back(defined.constant);
     try {
-        out = evaluate(defined.constant->value, defined.process);
+        out = evaluate(defined.constant->value, scope_of(*defined.constant, defined.process));
         if (!std::isfinite(*out)) out.reset();
     } catch (const FormulaError&) {  // check() reports it
     } catch (...) {
@@ -232,7 +252,7 @@ double Constants::evaluate(std::string_view text, const Process* process) {
 
 std::optional<double> Constants::value_of(std::string_view name) {
     const auto [constant, process] = find_in(system_, name);
-    return constant ? value(constant->value, process) : std::nullopt;
+    return constant ? value(constant->value, scope_of(*constant, process)) : std::nullopt;
 }
 
 void Constants::check(Diagnostics& diagnostics) {
@@ -257,7 +277,7 @@ void Constants::check(const std::vector<Constant>& all, const Process* process, 
             diagnostics.error(c.at, fmt::format("the minimum of '{}' is larger than its maximum", c.name));
         open_ = {&c};
         try {
-            const double v = evaluate(c.value, process);
+            const double v = evaluate(c.value, scope_of(c, process));
             const auto wrong = [&](std::string_view why) {
                 diagnostics.error(c.value_at,
                                   in_braces(c.value)
@@ -343,6 +363,37 @@ void write_out_formulas(System& system) {
     });
     system.constants.clear();
     for (auto& p : system.processes) p.constants.clear();
+}
+
+void settle_constants(System& system) {
+    compute(system);
+    Constants constants(system);
+    const GroupIndex groups(system);
+    for (auto& c : system.connections) {
+        if (groups.find(c.source).process == groups.find(c.target).process || !scope_of(c, groups)) continue;
+        each_with_formulas(c, [](auto& s) { s.formulas.clear(); });
+        if (!c.synapse) continue;
+        for (auto& i : c.synapse->initial) write_out(i, constants, scope_of(c, groups));
+        for (auto& s : c.synapse->settings)
+            if (!s.computed.empty()) s.value = std::exchange(s.computed, {});
+    }
+    std::vector<std::vector<Constant>> settled;
+    for (const auto& p : system.processes) {
+        auto& all = settled.emplace_back(p.constants);
+        const Process* owner = &p;
+        for (auto& c : all)
+            if (c.given)
+                c.value = to_text(constants.value(c.value, outer(system, p)).value_or(0)), c.given = false;
+        while ((owner = outer(system, *owner)))
+            for (Constant c : owner->constants)
+                if (!named(all, c.name)) {
+                    c.value = to_text(
+                        constants.value(c.value, c.given ? outer(system, *owner) : owner).value_or(0));
+                    c.given = false;
+                    all.push_back(std::move(c));
+                }
+    }
+    for (std::size_t i = 0; i < settled.size(); ++i) system.processes[i].constants = std::move(settled[i]);
 }
 
 const Constant* find_constant(const System& system, std::string_view name) {

@@ -23,9 +23,9 @@ class Constants {
     Constants(const System& system, std::optional<double> dt) : system_(system), dt_(dt) {}
 
     /// The value of a text that is a number, or a formula in braces of the constants that hold in a process
-    /// (in the system as a whole when `process` is null): its own, then those of the system, and `dt`, the
-    /// seconds per cycle. Throws FormulaError. Empty when a constant that it uses has no value; that is
-    /// reported where the constant is defined.
+    /// (in the system as a whole when `process` is null): its own, those of the processes in whose files it
+    /// is linked, then those of the system, and `dt`, the seconds per cycle. Throws FormulaError. Empty when
+    /// a constant that it uses has no value; that is reported where the constant is defined.
     std::optional<double> value(std::string_view text, const Process* process);
 
     /// The value of the constant that a name says (find_constant()); empty when it has none.
@@ -40,6 +40,8 @@ class Constants {
         const Process* process;  ///< null: the system's
     };
     Defined find(std::string_view name, const Process* process) const;
+    /// The process whose constants hold in the formula of a constant of `process`.
+    const Process* scope_of(const Constant& constant, const Process* process) const;
     double value_of(const Defined& defined);
     double evaluate(std::string_view text, const Process* process);
     void check(const std::vector<Constant>& all, const Process* process, Diagnostics& diagnostics);
@@ -51,7 +53,7 @@ class Constants {
     std::set<const Constant*> in_circles_;  ///< those that check() has reported
 };
 
-/// The process whose constants hold in a connection: that of both its groups; null when they have two.
+/// The process whose constants hold in a connection: the innermost that has both its groups; null for none.
 const Process* scope_of(const Connection& connection, const GroupIndex& groups);
 
 /// Reads the arrays of a system that are not read yet, and computes all its formulas: sets the numbers that
@@ -68,6 +70,10 @@ bool has_all(const std::vector<Constant>& all, const std::vector<Constant>& want
 
 /// Writes out all formulas as the numbers that they have, and removes the constants.
 void write_out_formulas(System& system);
+
+/// Gives processes of parts the constants that hold in them, as numbers, so that they can stand in the
+/// system's own file.
+void settle_constants(System& system);
 
 /// The constant that "name", or "Process.name" for one of a process, says; null when there is none.
 const Constant* find_constant(const System& system, std::string_view name);

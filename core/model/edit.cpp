@@ -15,6 +15,7 @@
 #include "core/model/constants.h"
 #include "core/model/expression.h"
 #include "core/model/lookup.h"
+#include "core/model/parts.h"
 
 namespace forage::model {
 namespace {
@@ -92,6 +93,9 @@ void set_constant(System& system, const Assignment& a, Diagnostics& diagnostics)
     Constant& constant = *find_constant(system, a.id);
     constant.value = trim(std::string_view(a.text).substr(a.text.find('=') + 1));
     constant.value_at = a.at;
+    for (auto& p : system.processes)
+        for (const Constant& own : p.constants)
+            if (&own == &constant && p.linked()) constant.given = true, give(p.placeholder.front(), constant);
     compute(system, diagnostics);
 }
 

@@ -9,7 +9,7 @@
 
 namespace forage::model {
 
-GroupIndex::GroupIndex(const System& system) {
+GroupIndex::GroupIndex(const System& system) : system_(system) {
     for (const auto& process : system.processes)
         for (const auto& group : process.groups) entries_.emplace(group.id, Entry{&process, &group});
 }

@@ -22,8 +22,10 @@ class GroupIndex {
     explicit GroupIndex(const System& system);
     /// The entry of the group with this id; null pointers when there is none.
     Entry find(std::string_view id) const;
+    const System& system() const { return system_; }
 
   private:
+    const System& system_;
     std::unordered_map<std::string_view, Entry> entries_;
 };
 

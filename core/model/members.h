@@ -86,6 +86,8 @@ inline constexpr auto members_of<Process> = std::tuple{
     Member{&Process::canvas_comments, "the comments on the page", Effect::none},
     Member{&Process::phantoms, "the phantoms", Effect::none},
     Member{&Process::constants, "the constants", Effect::parameters},
+    Member{&Process::ports, "the ports", Effect::none},
+    Member{&Process::within, "the file", Effect::none},
     Member{&Process::groups, "the groups", Effect::rebuild},
     Member{&Process::placeholder, "the link", Effect::none},
     Member{&Process::at, "the location", Effect::none},

@@ -24,6 +24,8 @@ struct Constant {
     std::string value;  ///< a number, or a formula in braces
     std::string unit, doc;
     std::optional<double> minimum, maximum;  ///< values outside are errors
+    /// Whether the element that uses a process file gives the value; its formula means what it means there.
+    bool given = false;
     Location at, name_at, value_at;
     friend bool operator==(const Constant&, const Constant&) = default;
 };
@@ -95,6 +97,7 @@ struct PlacedText {
 /// A neuron or synapse type that a system declares (core/equations).
 struct TypeDeclaration {
     std::string name, doc;
+    bool linked = false;                ///< whether it comes from the file of a linked process
     std::vector<Constant> constants;    ///< its parameters, with their defaults
     std::vector<DeclaredState> states;  ///< those that do not begin with 0, or have a unit or doc
     std::vector<PlacedText> equations;
@@ -175,6 +178,13 @@ struct Group {
     friend bool operator==(const Group&, const Group&) = default;
 };
 
+/// A group of a process file, by the name under which connections from outside reach it.
+struct Port {
+    std::string name, group;
+    Location at, name_at, group_at;
+    friend bool operator==(const Port&, const Port&) = default;
+};
+
 struct Process {
     std::string id, name, color, hostname, port, path;
     bool module_enabled = true;
@@ -185,6 +195,8 @@ struct Process {
     std::vector<CanvasComment> canvas_comments;  ///< on the page of its groups
     std::vector<Phantom> phantoms;               ///< those that the file places
     std::vector<Constant> constants;             ///< of the process; they hide those of the system
+    std::vector<Port> ports;                     ///< with them, the file of the process is a part
+    std::string within;  ///< the id of the process in whose file it is linked; empty for the system's own
     std::vector<Group> groups;
     /// The process as the system's own file has it: one element for a process that is linked to the file
     /// `path` (relative to the system's file), none for other processes. It is what the writer writes; the
@@ -247,10 +259,13 @@ inline double seconds_per_cycle(const System& s) {
     return 1 / (s.cycles_per_second > 0 ? s.cycles_per_second : 25);
 }
 
-/// The content of an .iqrProcess file: a process with the connections among its groups.
+/// The content of an .iqrProcess file: a process with the connections among its groups and the types that
+/// it uses. Processes that it links follow the first one.
 struct ProcessFile {
     Process process;
     std::vector<Connection> connections;
+    std::vector<TypeDeclaration> neuron_types = {}, synapse_types = {};
+    std::vector<Process> parts = {};
     friend bool operator==(const ProcessFile&, const ProcessFile&) = default;
 };
 

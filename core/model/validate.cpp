@@ -230,7 +230,7 @@ class Validator {
     void note_unusual(const Setting& s, const Parameter& p) {
         const auto hint = fmt::format("{} ({}) is meant for {} to {}; the value is used as it is", p.name,
                                       p.label, to_text(p.range->low), to_text(p.range->high));
-        auto& unusual = unusual_[{s.value_at.file.get(), hint}];
+        auto& unusual = unusual_[{s.value_at.file ? s.value_at.file->path : std::string(), hint}];
         if (unusual.count++ > 0) return;
         unusual.where = s.value_at, unusual.hint = hint;
         unusual.message = fmt::format("{} = {} is outside its usual range", p.name, s.in_force(p.kind));
@@ -612,7 +612,7 @@ class Validator {
         std::string message, hint;
         int count = 0;
     };
-    std::map<std::pair<const SourceFile*, std::string>, Unusual> unusual_;  ///< by file and hint
+    std::map<std::pair<std::string, std::string>, Unusual> unusual_;  ///< by file and hint
     /// The first output that leads to a group, by the group's id, of the enabled modules.
     std::map<std::string_view, std::pair<const Process*, const CrossReference*>> writers_;
     GroupIndex groups_;

@@ -104,7 +104,8 @@ bool begins_canvas_part(std::string_view comment) { return model::trim(comment).
 std::optional<CanvasPart> read_canvas_part(std::string_view comment) {
     if (!begins_canvas_part(comment)) return std::nullopt;
     Diagnostics mistakes;
-    const auto document = Document::parse({}, fmt::format("<{}/>", model::trim(comment)), {}, 100, mistakes);
+    const auto document =
+        Document::parse({{}, fmt::format("<{}/>", model::trim(comment))}, {}, 100, mistakes);
     const auto e = document ? document->root() : Element();
     const auto* rule = e ? canvas().format.find(e.name()) : nullptr;
     if (!rule || !check(e, *rule, canvas().format, mistakes) || mistakes.failed()) return std::nullopt;

@@ -351,16 +351,17 @@ std::string_view what_begins_with(std::string_view root) {
 
 }  // namespace
 
-std::unique_ptr<const Document> open(const std::string& path, const Format& format,
-                                     Diagnostics& diagnostics) {
+std::unique_ptr<const Document> open(const std::string& path, const Format& format, Diagnostics& diagnostics,
+                                     std::string used) {
     constexpr std::size_t largest_file = std::size_t{32} << 20;
     auto text = read_file(path, largest_file, diagnostics);
-    return text ? open(path, std::move(*text), format, diagnostics) : nullptr;
+    return text ? open(path, std::move(*text), format, diagnostics, std::move(used)) : nullptr;
 }
 
 std::unique_ptr<const Document> open(const std::string& path, std::string text, const Format& format,
-                                     Diagnostics& diagnostics) {
-    auto document = Document::parse(path, std::move(text), format.beginning, format.max_nodes, diagnostics);
+                                     Diagnostics& diagnostics, std::string used) {
+    auto document = Document::parse({path, std::move(text), std::move(used)}, format.beginning,
+                                    format.max_nodes, diagnostics);
     if (!document) return nullptr;
     const std::string_view name = document->root().name();
     if (std::ranges::find(format.roots, name) != format.roots.end()) return document;

@@ -165,11 +165,10 @@ Value Element::value(std::string_view path) const {
 
 // ---- documents ----
 
-std::unique_ptr<const Document> Document::parse(std::string path, std::string text,
-                                                std::string_view beginning, std::size_t max_nodes,
-                                                Diagnostics& diagnostics) {
+std::unique_ptr<const Document> Document::parse(SourceFile file, std::string_view beginning,
+                                                std::size_t max_nodes, Diagnostics& diagnostics) {
     auto document = std::make_unique<Document>();
-    document->source = std::make_shared<SourceFile>(SourceFile{std::move(path), std::move(text)});
+    document->source = std::make_shared<SourceFile>(std::move(file));
     const std::string& t = document->source->text;
     document->line_starts = {0};
     for (std::size_t i = 0; i < t.size(); ++i)

@@ -107,13 +107,12 @@ struct Document {
     std::shared_ptr<tinyxml2::XMLDocument> xml;
     const char* buffer = nullptr;  ///< where tinyxml2 keeps its copy of the text
 
-    /// Parses `text`, which users know as the file `path`: XML 1.0 in UTF-8, without entities of its own,
-    /// with elements nested at most 64 deep. Reports the first fault, if there is one, and returns null then.
+    /// Parses the text of a file: XML 1.0 in UTF-8, without entities of its own, with elements nested at most
+    /// 64 deep. Reports the first fault, if there is one, and returns null then.
     /// `beginning` is the start tag of such a file, for hints ("<System ...>"); `max_nodes` limits its
     /// elements, attributes and comments.
-    static std::unique_ptr<const Document> parse(std::string path, std::string text,
-                                                 std::string_view beginning, std::size_t max_nodes,
-                                                 Diagnostics& diagnostics);
+    static std::unique_ptr<const Document> parse(SourceFile file, std::string_view beginning,
+                                                 std::size_t max_nodes, Diagnostics& diagnostics);
 
     Element root() const;
     std::vector<Comment> comments() const;          ///< in file order

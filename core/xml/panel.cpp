@@ -9,7 +9,7 @@ namespace forage::xml {
 std::vector<PanelRow> parse_panel(const std::string& path, const std::string& text,
                                   Diagnostics& diagnostics) {
     std::vector<PanelRow> out;
-    const auto document = Document::parse(path, text, "<HarborConfig>", 100'000, diagnostics);
+    const auto document = Document::parse({path, text}, "<HarborConfig>", 100'000, diagnostics);
     if (!document) return out;
     const Element root = document->root();
     const bool values = root.name() == "ParamSet";

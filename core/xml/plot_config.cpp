@@ -123,7 +123,8 @@ std::optional<PlotWindow> window_of(const Element& client, Diagnostics& diagnost
 std::vector<PlotWindow> parse_plot_config(const std::string& path, const std::string& text,
                                           Diagnostics& diagnostics) {
     std::vector<PlotWindow> out;
-    const auto document = Document::parse(path, text, "<iqrDataManagerConfiguration>", 100'000, diagnostics);
+    const auto document =
+        Document::parse({path, text}, "<iqrDataManagerConfiguration>", 100'000, diagnostics);
     if (!document) return out;
     const Element root = document->root();
     if (root.name() != "iqrDataManagerConfiguration") {

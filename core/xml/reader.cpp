@@ -1,16 +1,15 @@
 #include "core/xml/reader.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <iterator>
 #include <map>
 
 #include <fmt/format.h>
 
-#include "core/base/separated.h"
 #include "core/model/constants.h"
-#include "core/model/lookup.h"
 #include "core/xml/canvas.h"
 #include "core/xml/check.h"
+#include "core/xml/link.h"
 #include "core/xml/system_elements.h"
 
 namespace forage::xml {
@@ -66,14 +65,19 @@ class Reader {
         return s;
     }
 
-    model::ProcessFile process_file() {
+    /// The content of a process file.
+    model::System part() {
         const Element& e = document_.root();
-        model::ProcessFile f;
-        f.process = process(e.child("Process"));
+        model::System s;
+        s.at = e.where();
+        s.neuron_types = declarations(e, "NeuronType");
+        s.synapse_types = declarations(e, "SynapseType");
+        for (const Element& p : e.children("Process")) s.processes.push_back(process(p));
         auto comments = comments_of(e);
-        f.process.comments.insert(f.process.comments.begin(), comments.begin(), comments.end());
-        for (const Element& c : e.children("Connection")) f.connections.push_back(connection(c));
-        return f;
+        auto& first = s.processes.front().comments;
+        first.insert(first.begin(), comments.begin(), comments.end());
+        for (const Element& c : e.children("Connection")) s.connections.push_back(connection(c));
+        return s;
     }
 
   private:
@@ -141,6 +145,7 @@ class Reader {
         p.canvas_comments = canvas_parts<model::CanvasComment>(e);
         p.phantoms = canvas_parts<model::Phantom>(e);
         p.constants = constants(e);
+        for (const Element& port : e.children("Port")) p.ports.push_back(located<model::Port>(port));
         if (const Element m = e.child("Module")) p.module = module(m);
         p.note = note(e);
         p.icon = icon(e);
@@ -292,97 +297,6 @@ class Reader {
     std::map<Element, std::vector<CanvasPart>> canvas_;  ///< by the element in which they stand
 };
 
-/// "'a', 'b', 'c' and 4 more"
-std::string some_of(const std::vector<std::string>& ids) {
-    constexpr std::size_t shown = 6;
-    const std::vector<std::string> some(
-        ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(std::min(ids.size(), shown)));
-    return fmt::format("'{}'{}", separated(some, "', '"),
-                       ids.size() > shown ? fmt::format(" and {} more", ids.size() - shown) : "");
-}
-
-/// Reports a file that two processes link, whose ids would not be unique. Returns whether it did.
-bool report_second_link(const model::Process& place, const std::string& file, const model::System& system,
-                        Diagnostics& out) {
-    for (const auto& first : system.processes) {
-        std::error_code ignored;
-        if (!first.linked() ||
-            !std::filesystem::equivalent(model::resolved(first.path, first.path_at), file, ignored))
-            continue;
-        std::vector<std::string> ids{first.id};
-        for (const auto& g : first.groups) ids.push_back(g.id);
-        for (const auto& c : system.connections)
-            if (c.linked && c.at.file && first.at.file && c.at.file->path == first.at.file->path)
-                ids.push_back(c.id);
-        out.error(
-            place.path_at,
-            fmt::format("process '{}' is linked to '{}', as process '{}' on line {} is: the ids {} would "
-                        "occur twice",
-                        model::trim(place.name), place.path, model::trim(first.placeholder.front().name),
-                        first.path_at.line, some_of(ids)),
-            "a system links a file once; 'forage convert SYSTEM.iqr COPY.iqr --import FILE' adds a copy "
-            "with new ids");
-        return true;
-    }
-    return false;
-}
-
-/// Warns when the element that links a file says something that the file says otherwise.
-void warn_of_ignored(const model::Process& place, const model::Process& content, Diagnostics& out) {
-    std::vector<std::string> ignored, used;
-    const auto compare = [&](const char* what, const std::string& here, const std::string& there) {
-        if (here.empty() || model::trim(here) == model::trim(there)) return;
-        ignored.push_back(fmt::format("{} '{}'", what, model::trim(here)));
-        used.push_back(fmt::format("{} '{}'", what, model::trim(there)));
-    };
-    if (!place.constants.empty())
-        out.warning(
-            place.constants.front().at,
-            fmt::format("constants of a linked process are ignored: the file '{}' has its own", place.path),
-            "write them in that file");
-    compare("id", place.id, content.id), compare("name", place.name, content.name);
-    if (ignored.empty()) return;
-    out.warning(
-        place.at,
-        fmt::format("the {} of this process {} ignored, as in iqr: the linked file '{}' gives it the {}",
-                    separated(ignored, " and the "), ignored.size() > 1 ? "are" : "is", place.path,
-                    separated(used, " and the ")),
-        "write the same here as in the file");
-}
-
-/// Reads the file of a linked process, which replaces the process in the system's own file.
-void link(model::Process& place, model::System& system, Diagnostics& out) {
-    const auto file = model::resolved(place.path, place.path_at);
-    std::error_code ignored;
-    if (!std::filesystem::is_regular_file(file, ignored)) {
-        out.error(
-            place.path_at,
-            fmt::format("process '{}' is linked to '{}', which cannot be read", place.name, place.path),
-            fmt::format("the path is relative to the system file: '{}'; empty it to use what this file says",
-                        file));
-        return;
-    }
-    if (report_second_link(place, file, system, out)) return;
-    auto content = read_process(file, out);
-    if (!content) return;
-    if (!content->process.path.empty()) {
-        out.error(content->process.path_at, "the process of a process file is linked itself",
-                  "a linked process cannot lead to another file: empty 'path'");
-        return;
-    }
-    warn_of_ignored(place, content->process, out);
-    content->process.path = place.path;
-    content->process.path_at = place.path_at;
-    if (place.icon) content->process.icon = place.icon;
-    content->process.phantoms = place.phantoms;  // its connections to others are in this file, too
-    content->process.placeholder.push_back(std::move(place));
-    place = std::move(content->process);
-    for (auto& c : content->connections) {
-        c.linked = true;
-        system.connections.push_back(std::move(c));
-    }
-}
-
 /// The model that `read` makes from a document. Empty when the document has errors after which its meaning is
 /// not clear, or when `read` has found further errors.
 template <class Read>
@@ -398,8 +312,7 @@ auto build(const Document* document, const Format& format, Diagnostics& diagnost
 std::optional<model::System> build_system(const Document* document, Diagnostics& diagnostics) {
     auto out = build(document, system_format(), diagnostics, [&](const Document& d) {
         model::System system = Reader(d, diagnostics).system();
-        for (auto& p : system.processes)
-            if (!p.path.empty()) link(p, system, diagnostics);
+        link(system, nullptr, diagnostics);
         return system;
     });
     if (out && !model::compute(*out, diagnostics)) out.reset();
@@ -417,9 +330,34 @@ std::optional<model::System> parse_system(const std::string& path, std::string t
     return build_system(open(path, std::move(text), system_format(), diagnostics).get(), diagnostics);
 }
 
+std::optional<model::System> read_part(const std::string& path, const Use* use, Diagnostics& diagnostics) {
+    std::string used;
+    if (use) {
+        const auto& by = *use->at.file;
+        used = fmt::format("{}:{}{}", by.path, use->at.line,
+                           by.used.empty() ? "" : ", which is used at " + by.used);
+    }
+    bool complete = true;
+    auto out = build(open(path, process_format(), diagnostics, used).get(), process_format(), diagnostics,
+                     [&](const Document& d) {
+                         model::System content = Reader(d, diagnostics).part();
+                         complete = link(content, use, diagnostics);
+                         return content;
+                     });
+    return complete ? std::move(out) : std::nullopt;
+}
+
 std::optional<model::ProcessFile> read_process(const std::string& path, Diagnostics& diagnostics) {
-    return build(open(path, process_format(), diagnostics).get(), process_format(), diagnostics,
-                 [&](const Document& d) { return Reader(d, diagnostics).process_file(); });
+    auto content = read_part(path, nullptr, diagnostics);
+    if (!content) return std::nullopt;
+    model::ProcessFile out;
+    out.process = std::move(content->processes.front());
+    out.parts.assign(std::make_move_iterator(content->processes.begin() + 1),
+                     std::make_move_iterator(content->processes.end()));
+    out.connections = std::move(content->connections);
+    out.neuron_types = std::move(content->neuron_types);
+    out.synapse_types = std::move(content->synapse_types);
+    return out;
 }
 
 }  // namespace forage::xml

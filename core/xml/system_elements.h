@@ -81,11 +81,11 @@ inline auto system_elements() {
              {&System::port, port()}}),
         ElementRule{"iqrEntity",
                     "a part of a system in a file of its own",
-                    "Process! Connection",
+                    "NeuronType SynapseType Process+ Connection",
                     {required(choice("type", "what the part is", {"Process"}))}},
         element<Process>(
             "Process", "a part of the system: groups, and possibly the module that ties them to the outside",
-            "Constant Module? Note? DiagramIcon? Group",
+            "Constant Port Module? Note? DiagramIcon? Group",
             {{&Process::id, id()},
              {&Process::name, name()},
              {&Process::hostname, omit_default(text("hostname", "without effect"))},
@@ -96,6 +96,11 @@ inline auto system_elements() {
                   text("path", "file of a linked process, relative to this file; empty: not linked")),
               &Process::path_at},
              {&Process::color, color()}}),
+        element<Port>(
+            "Port", "a group of a process file that other processes connect to", "",
+            {{&Port::name, required(text("name", "after the id of the process: source=\"left.name\"")),
+              &Port::name_at},
+             {&Port::group, group("group"), &Port::group_at}}),
         element<Constant>(
             "Constant", "a number with a name, which formulas in braces use", "",
             {{&Constant::name, required(text("name", "letters, digits and _")), &Constant::name_at},

@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "core/model/parts.h"
 #include "core/xml/canvas.h"
 #include "core/xml/printer.h"
 #include "core/xml/system_elements.h"
@@ -17,19 +18,22 @@ class Writer : Printer {
         comments(s.comments);
         begin(s);
         for (const auto& c : s.constants) leaf_of(c);
-        for (const auto& type : s.neuron_types) declaration("NeuronType", type);
-        for (const auto& type : s.synapse_types) declaration("SynapseType", type);
+        types(s);
         note(s.note);
-        for (const auto& p : s.processes) process(p.linked() ? p.placeholder.front() : p);
+        for (const auto& p : s.processes)
+            if (p.within.empty()) process(p.linked() ? p.placeholder.front() : p);
         for (const auto& c : s.connections)
-            if (!c.linked) connection(c);
+            if (!c.linked) connection(model::through_ports(s, c));
         for (const auto& c : s.canvas_comments) comment(write_canvas_part(c));
         close();
     }
 
     void process_file(const model::ProcessFile& f) {
         open("iqrEntity", {{"type", "Process"}});
+        types(f);
         process(f.process);
+        for (const auto& p : f.parts)
+            if (p.within.empty()) process(p.linked() ? p.placeholder.front() : p);
         for (const auto& c : f.connections) connection(c);
         close();
     }
@@ -68,6 +72,12 @@ class Writer : Printer {
         if (i) leaf_of(*i);
     }
 
+    void types(const auto& all) {
+        for (const auto& type : all.neuron_types)
+            if (!type.linked) declaration("NeuronType", type);
+        for (const auto& type : all.synapse_types)
+            if (!type.linked) declaration("SynapseType", type);
+    }
     void declaration(const char* kind, const model::TypeDeclaration& type) {
         open(kind), attributes(type);
         for (const auto& c : type.constants) leaf_of(c);
@@ -83,6 +93,7 @@ class Writer : Printer {
         comments(p.comments);
         begin(p);
         for (const auto& c : p.constants) leaf_of(c);
+        for (const auto& port : p.ports) leaf_of(port);
         if (p.module) {
             use(*p.module);
             references("InputFromGroup", p.module->inputs);

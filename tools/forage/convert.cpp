@@ -32,9 +32,12 @@ void warn_of_loss(const model::System& system, const model::ProcessFile& file, D
     const auto lost = std::ranges::count_if(system.connections, [&](const auto& c) {
         return groups.contains(c.source) != groups.contains(c.target);
     });
+    std::vector<std::string> ports;
+    for (const auto& port : file.process.ports) ports.push_back(port.name);
     if (lost)
         diagnostics.warning(
-            {}, fmt::format("--extract: connections from or to other processes are not written: {}", lost));
+            {}, fmt::format("--extract: connections from or to other processes are not written: {}", lost),
+            fmt::format("a system that uses the file connects its ports: {}", separated(ports, ", ")));
 }
 
 /// Says that an imported process is not connected yet, and names the ids that a connection needs.

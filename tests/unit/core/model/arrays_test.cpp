@@ -20,7 +20,7 @@ System two_groups() {
     for (const char* id : {"c", "d"})
         find_connection(s, add_connection(s, "a", "b", InputKind::excitatory, "synapseFixedWeight", id))
             ->pattern = Weights{"data/w.csv"};
-    s.constants.push_back({"mean", "0.5", {}, {}, {}, {}, {}, {}, {}});
+    s.constants.push_back({"mean", "0.5", {}, {}, {}, {}, false, {}, {}, {}});
     find_group(s, "a")->neuron.initial = {{"vm", "normal({mean}, {clip(2 * mean, 0, 0.75)})"},
                                           {"act", "{mean}"}};
     return s;

@@ -30,6 +30,7 @@ void change(Icon& icon) { icon.x += 1; }
 void change(Line& line) { line.source_anchor += 1; }
 void change(Phantom& phantom) { phantom.y += 1; }
 void change(Setting& setting) { setting.value = "1"; }
+void change(Port& port) { port.name += "x"; }
 void change(Initial& initial) { initial.state = "vm", initial.value = "1"; }
 void change(Constant& constant) { constant.name = "k", constant.value = "2", constant.minimum = 0.5; }
 void change(TypeDeclaration& type) { type.name = type.name + "x", type.equations = {{"output y = exc", {}}}; }
@@ -85,6 +86,8 @@ System full_system() {
     s.processes.back().module = s.processes.front().module;
     s.processes.back().groups.front().neuron.settings = {{"threshold", "0.25", {}, {}}};
     s.processes.front().phantoms = {{far, 5, -60}};
+    s.processes.front().ports = {{"in", "a", {}, {}, {}}};
+    s.processes.back().ports = {{"in", far, {}, {}, {}}};
     for (const std::string& page : {std::string(), std::string("p")})
         add_canvas_comment(s, page, {{}, "About", "#ffeeaa", {1, 2, 3, 4}, {}});
     const auto c = add_connection(s, "a", far, InputKind::excitatory, "synapseLearning");

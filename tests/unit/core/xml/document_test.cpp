@@ -11,7 +11,7 @@ struct Parsed {
     Diagnostics diagnostics;
 
     explicit Parsed(const std::string& text) {
-        document = xml::Document::parse("test.xml", text, "<System ...>", 1000, diagnostics);
+        document = xml::Document::parse({"test.xml", text}, "<System ...>", 1000, diagnostics);
     }
     xml::Element root() const { return document->root(); }
     const Diagnostic& fault() const { return diagnostics.all().front(); }

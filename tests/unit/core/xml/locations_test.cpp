@@ -23,7 +23,7 @@ std::pair<int, int> pair(const Location& at) { return {at.line, at.column}; }
 
 std::unique_ptr<const Document> parsed(const std::string& text) {
     Diagnostics diagnostics;
-    auto document = xml::Document::parse("test.iqr", text, "<System ...>", 1000, diagnostics);
+    auto document = xml::Document::parse({"test.iqr", text}, "<System ...>", 1000, diagnostics);
     INFO(format(diagnostics));
     REQUIRE(document);
     return document;

@@ -188,7 +188,7 @@ TEST_CASE("Unknown attributes and elements are warnings when reading leniently, 
           "5:44: <Process> has no attribute 'mood' | there are 'id', 'name', 'hostname', 'port', "
           "'enableModule', 'path', 'color'");
     CHECK(mistake(replaced(small_system, "<Note/>", "<Remark/>"), true) ==
-          "11:5: <Process> cannot hold <Remark> | there are 'Constant', 'Module', 'Note', 'DiagramIcon', "
+          "11:5: <Process> cannot hold <Remark> | there are 'Constant', 'Port', 'Module', 'Note', 'DiagramIcon', "
           "'Group'");
 }
 

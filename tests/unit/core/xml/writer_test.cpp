@@ -1,35 +1,20 @@
 #include "core/xml/writer.h"
 
-#include <filesystem>
-#include <fstream>
-
-#include <unistd.h>
-
 #include "core/model/build.h"
 #include "core/model/validate.h"
 #include "tests/support/catch.h"
+#include "tests/support/folder.h"
 #include "tests/support/golden.h"
 #include "tests/support/model_text.h"
 #include "tests/support/paths.h"
 
 using namespace forage;
+using test::Folder;
 using test::replaced;
 using test::small_system;
 using test::system_of;
-namespace fs = std::filesystem;
 
 namespace {
-
-/// A directory that is removed after the test.
-struct Folder {
-    fs::path path = fs::temp_directory_path() / ("forage-writer-test-" + std::to_string(::getpid()));
-    Folder() { fs::create_directories(path); }
-    ~Folder() { fs::remove_all(path); }
-    std::string write(const std::string& name, const std::string& text) const {
-        std::ofstream(path / name) << text;
-        return (path / name).string();
-    }
-};
 
 /// The first process of the small system, as a file of its own, with a connection.
 std::string process_text() {
@@ -174,16 +159,20 @@ TEST_CASE("A note that a comment or CDATA section divides is read as a whole") {
     CHECK(system_of(xml::write_system(s)) == s);
 }
 
-TEST_CASE("Constants in the link of a process are not ignored in silence") {
+TEST_CASE("A process gives constants to the file that it links") {
     const Folder folder;
     folder.write("brain.iqrProcess", process_text());
     std::string text = linking_system("brain.iqrProcess");
     text.insert(text.find('>', text.find("path=\"brain")) + 1, "<Constant name=\"k\" value=\"1\"/>");
     Diagnostics diagnostics;
-    CHECK(xml::read_system(folder.write("system.iqr", text), diagnostics));
-    REQUIRE(diagnostics.all().size() == 2);
-    CHECK(diagnostics.all()[0].message ==
-          "constants of a linked process are ignored: the file 'brain.iqrProcess' has its own");
+    CHECK_FALSE(xml::read_system(folder.write("system.iqr", text), diagnostics));
+    REQUIRE(diagnostics.all().size() == 1);
+    CHECK(diagnostics.all()[0].message == "'brain.iqrProcess' has no constant 'k'");
+    folder.write("brain.iqrProcess",
+                 replaced(process_text(), "<Module", "<Constant name=\"k\" value=\"2\"/><Module"));
+    const auto s = xml::read_system((folder.path / "system.iqr").string(), diagnostics);
+    REQUIRE(s);
+    CHECK(s->processes[0].constants[0].value == "1");
 }
 
 TEST_CASE("A linked process is read from its file, with its connections, and written as a link") {
@@ -194,12 +183,9 @@ TEST_CASE("A linked process is read from its file, with its connections, and wri
     const auto s = xml::read_system(file, diagnostics);
     INFO(format(diagnostics));
     REQUIRE(s);
-    REQUIRE(diagnostics.all().size() == 1);
-    CHECK(diagnostics.all()[0].message ==
-          "the name 'placeholder' of this process is ignored, as in iqr: the linked file 'brain.iqrProcess' "
-          "gives it the name 'P'");
+    CHECK(diagnostics.all().empty());
     REQUIRE(s->processes.size() == 1);
-    CHECK(s->processes[0].name == "P");
+    CHECK(s->processes[0].name == "placeholder");  // as the system says it
     CHECK(s->processes[0].groups.size() == 2);
     CHECK(s->processes[0].icon->x == 7);  // where the system shows it
     CHECK(s->processes[0].phantoms == std::vector<model::Phantom>{{"far", 1, 2}});
@@ -250,9 +236,8 @@ TEST_CASE("Mistakes in a linked process are reported with its file") {
                                              "enableModule=\"false\" path=\"self.iqrProcess\""));
     CHECK(say(folder.write("system.iqr", linking_system("self.iqrProcess"))).find("is linked itself") !=
           std::string::npos);
-    CHECK(
-        say(folder.write("system.iqr", linking_system("system.iqr"))).find("other files do not contain it") !=
-        std::string::npos);
+    CHECK(say(folder.write("system.iqr", linking_system("system.iqr"))).find("would contain itself") !=
+          std::string::npos);
 }
 
 TEST_CASE("A process file is read, written and read again") {

@@ -36,7 +36,7 @@ model::ProcessFile process_file(const std::string& path) {
     return *std::move(file);
 }
 
-/// The ids of a linked process are those of its file, so that they must be free.
+/// The ids in a file without ports stay as they are, so that they must be free.
 void refuse_taken_ids(const model::System& system, const model::ProcessFile& file, const std::string& path) {
     const auto refuse_taken = [&](const std::string& id) {
         const auto has_it = [&](const auto& item) { return item.id == id; };
@@ -48,7 +48,6 @@ void refuse_taken_ids(const model::System& system, const model::ProcessFile& fil
             throw InputError(fmt::format("'{}' has the id '{}', which the system has, too", path, id),
                              "import the process instead: it gets ids of its own");
     };
-    refuse_taken(file.process.id);
     for (const auto& g : file.process.groups) refuse_taken(g.id);
     for (const auto& connection : file.connections) refuse_taken(connection.id);
 }
@@ -140,7 +139,12 @@ json reload_document(Session& s, const Request& r) {
 /// Adds an empty process whose content is in a file.
 std::string add_link(model::System& system, const model::ProcessFile& file, const std::string& path,
                      const std::string& own) {
-    auto made = model::add_process(system, file.process.name);
+    const std::string first(model::trim(file.process.name));
+    std::string name = first;
+    const auto is_taken = [&](const auto& p) { return model::trim(p.name) == name; };
+    for (int n = 2; std::ranges::any_of(system.processes, is_taken); ++n)
+        name = fmt::format("{} {}", first, n);
+    auto made = model::add_process(system, name);
     model::find_process(system, made)->path =
         own.empty()  // before the first save
             ? fs::absolute(path).string()
@@ -155,18 +159,13 @@ json import_process_file(Session& s, const Request& r) {
     check_readable(path, {FileKind::process});
     auto file = process_file(path);
     const std::string title = "import " + fs::path(path).filename().string();
-    if (link) refuse_taken_ids(document.system(), file, path);
+    if (link && file.process.ports.empty()) refuse_taken_ids(document.system(), file, path);
     std::string made;
     const std::string before = document.text();
     document.edit([&](model::System& system) {
         made = link ? add_link(system, file, path, document.path())
                     : model::import_process(system, std::move(file));
     });
-    for (const auto& p : document.system().processes)  // it has the id of its file
-        if (p.linked() && p.placeholder.front().id == made) {
-            made = p.id;
-            break;
-        }
     const json operations = {{{"do", "import"}, {"file", path}}};
     json out = follow_edit(s, {.title = title, .system = before},
                            link ? Equivalent() : of_edit(s.edited_file(document.path()), operations));

@@ -1,0 +1,218 @@
+#include "core/xml/link.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "core/base/separated.h"
+#include "core/model/lookup.h"
+#include "core/model/parts.h"
+
+namespace forage::xml {
+namespace {
+
+/// "'a', 'b', 'c' and 4 more"
+std::string some_of(const std::vector<std::string>& ids) {
+    constexpr std::size_t shown = 6;
+    const std::vector<std::string> some(
+        ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(std::min(ids.size(), shown)));
+    return fmt::format("'{}'{}", separated(some, "', '"),
+                       ids.size() > shown ? fmt::format(" and {} more", ids.size() - shown) : "");
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+    std::error_code ignored;
+    return std::filesystem::equivalent(a, b, ignored);
+}
+
+class Linker {
+  public:
+    Linker(model::System& system, const Use* use, Diagnostics& out) : system_(system), use_(use), out_(out) {}
+
+    bool run() {
+        auto places = std::exchange(system_.processes, {});
+        bool complete = true;
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            model::Process& place = places[i];
+            if (!place.path.empty() && use_ && i == 0) {
+                out_.error(place.path_at, "the process of a process file is linked itself",
+                           "a linked process cannot lead to another file: empty 'path'");
+            } else if (!place.path.empty()) {
+                auto content = content_of(place);
+                complete = complete && content;
+                if (content) {
+                    take_over(place, *std::move(content));
+                    continue;
+                }
+            } else if (use_ && i > 0) {
+                out_.error(place.at, "a process file has one process, and others only by their files",
+                           "give this one a 'path', or a file of its own");
+            }
+            system_.processes.push_back(std::move(place));
+        }
+        if (complete) enter_ports();
+        return complete;
+    }
+
+  private:
+    /// The content of the file that a process links; empty after an error.
+    std::optional<model::System> content_of(const model::Process& place) {
+        const auto file = model::resolved(place.path, place.path_at);
+        std::error_code ignored;
+        if (!std::filesystem::is_regular_file(file, ignored)) {
+            out_.error(
+                place.path_at,
+                fmt::format("process '{}' is linked to '{}', which cannot be read", place.name, place.path),
+                fmt::format("the path is relative to the system file: '{}'; empty it to use what this "
+                            "file says",
+                            file));
+            return {};
+        }
+        const Use use{place.path_at, use_};
+        for (const Use* u = &use; u; u = u->outer)
+            if (same_file(u->at.file->path, file)) {
+                out_.error(place.path_at, fmt::format("'{}' would contain itself", place.path));
+                return {};
+            }
+        const bool failed = std::ranges::any_of(out_.all(), [&](const Diagnostic& d) {
+            return d.severity == Severity::error && d.where.file && d.where.file->path == file;
+        });
+        auto content = failed ? std::nullopt : read_part(file, &use, out_);
+        if (!content) return {};
+        const model::Process& own = content->processes.front();
+        if (own.ports.empty() && is_second_link(place, own, file)) return {};
+        return content;
+    }
+
+    /// Reports a file without ports that two processes link, whose ids would not be unique. Returns whether
+    /// it did.
+    bool is_second_link(const model::Process& place, const model::Process& own, const std::string& file) {
+        for (const auto& first : system_.processes) {
+            if (!first.linked() || !same_file(model::resolved(first.path, first.path_at), file)) continue;
+            std::vector<std::string> ids;
+            for (const auto& g : first.groups) ids.push_back(g.id);
+            for (const auto& c : system_.connections)
+                if (c.linked && c.at.file && own.at.file && c.at.file->path == own.at.file->path)
+                    ids.push_back(c.id);
+            out_.error(
+                place.path_at,
+                fmt::format("process '{}' is linked to '{}', as process '{}' on line {} is: the ids {} "
+                            "would occur twice",
+                            model::trim(place.name), place.path, model::trim(first.name), first.path_at.line,
+                            some_of(ids)),
+                "a file with a <Port name=\"...\" group=\"...\"/> may be used any number of times: each use "
+                "has ids of its own");
+            return true;
+        }
+        return false;
+    }
+
+    /// Puts the content of a file in the place of the process that uses it.
+    void take_over(model::Process& place, model::System content) {
+        give_constants(content.processes.front(), place);
+        take_over_types(content.neuron_types, system_.neuron_types);
+        take_over_types(content.synapse_types, system_.synapse_types);
+        if (content.processes.front().ports.empty())
+            for (auto& p : content.processes) p.within = p.within.empty() ? place.id : p.within;
+        else
+            model::name_use(content, place);
+        model::Process& own = content.processes.front();
+        if (own.within == place.id) own.within.clear();
+        own.id = place.id, own.name = place.name;
+        own.path = place.path, own.path_at = place.path_at;
+        if (place.icon) own.icon = place.icon;
+        own.phantoms = place.phantoms;  // its connections to others are in this file, too
+        own.placeholder.push_back(std::move(place));
+        for (auto& p : content.processes) system_.processes.push_back(std::move(p));
+        for (auto& c : content.connections) {
+            c.linked = true;
+            system_.connections.push_back(std::move(c));
+        }
+    }
+
+    void give_constants(model::Process& own, const model::Process& place) {
+        std::vector<std::string> names;
+        for (const auto& c : own.constants) names.push_back(c.name);
+        for (const auto& c : place.constants) {
+            const auto it = std::ranges::find(own.constants, c.name, &model::Constant::name);
+            if (it == own.constants.end()) {
+                out_.error(c.name_at, fmt::format("'{}' has no constant '{}'", place.path, c.name),
+                           suggest(c.name, names));
+                continue;
+            }
+            it->value = c.value, it->value_at = c.value_at, it->given = true;
+        }
+    }
+
+    void take_over_types(std::vector<model::TypeDeclaration>& from, std::vector<model::TypeDeclaration>& to) {
+        for (auto& type : from) {
+            const auto known = std::ranges::find(to, type.name, &model::TypeDeclaration::name);
+            if (known == to.end()) {
+                type.linked = true;
+                to.push_back(std::move(type));
+            } else if (type.linked = known->linked; !(type == *known)) {
+                out_.error(type.name_at,
+                           fmt::format("the type '{}' is declared otherwise in '{}'", type.name,
+                                       known->at.file->path),
+                           "give one of them another name");
+            }
+        }
+    }
+
+    /// Gives connections, and ports of this file, the groups behind the ports of linked processes.
+    void enter_ports() {
+        const auto enter = [&](std::string& end, const Location& at) {
+            if (auto group = model::group_behind(system_, end); !group.empty()) {
+                end = std::move(group);
+                return;
+            }
+            for (const auto& p : system_.processes)
+                if (p.linked() && !p.ports.empty() &&
+                    std::ranges::find(p.groups, end, &model::Group::id) != p.groups.end())
+                    out_.error(at, fmt::format("'{}' is no port of '{}'", end, p.path),
+                               suggest(end, model::port_names(system_)));
+        };
+        for (auto& c : system_.connections)
+            if (!c.linked) enter(c.source, c.source_at), enter(c.target, c.target_at);
+        for (auto& p : system_.processes)
+            if (!p.linked())
+                for (auto& port : p.ports) enter(port.group, port.group_at);
+        check_ports();
+    }
+
+    void check_ports() {
+        for (const auto& p : system_.processes) {
+            if (p.linked() || p.ports.empty()) continue;
+            std::vector<std::string> groups;
+            for (const auto& other : system_.processes)
+                if (use_ || &other == &p)
+                    for (const auto& g : other.groups) groups.push_back(g.id);
+            std::set<std::string_view> names;
+            for (const auto& port : p.ports) {
+                if (std::ranges::find(groups, port.group) == groups.end())
+                    out_.error(port.group_at, fmt::format("there is no group '{}' here", port.group),
+                               suggest(port.group, groups));
+                if (port.name != port.group && std::ranges::find(groups, port.name) != groups.end())
+                    out_.error(port.name_at,
+                               fmt::format("the port '{}' has the id of another group", port.name),
+                               "give the port another name");
+                if (!names.insert(port.name).second)
+                    out_.error(port.name_at, fmt::format("there are two ports '{}'", port.name));
+            }
+        }
+    }
+
+    model::System& system_;
+    const Use* use_;
+    Diagnostics& out_;
+};
+
+}  // namespace
+
+bool link(model::System& system, const Use* use, Diagnostics& diagnostics) {
+    return Linker(system, use, diagnostics).run();
+}
+
+}  // namespace forage::xml

@@ -1,0 +1,25 @@
+// Processes whose content is in files of their own.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "core/model/system.h"
+
+namespace forage::xml {
+
+/// Where a file uses another one, within the uses that led to it.
+struct Use {
+    const Location& at;
+    const Use* outer;
+};
+
+/// Replaces the processes of a file that link others by the content of these files: at most once a file
+/// without ports, whose ids stay as they are, and any number of times a part, which has ports. Connections to
+/// ports get their groups. Returns whether all files could be taken over. `use` is how the file itself is used; null for a file that stands alone.
+bool link(model::System& system, const Use* use, Diagnostics& diagnostics);
+
+/// The content of a process file, as link() takes it over: the first process is that of the file.
+std::optional<model::System> read_part(const std::string& path, const Use* use, Diagnostics& diagnostics);
+
+}  // namespace forage::xml

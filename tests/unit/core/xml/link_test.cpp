@@ -1,0 +1,221 @@
+// Parts: process files with ports, constants and types, used any number of times.
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "core/model/build.h"
+#include "core/model/constants.h"
+#include "core/model/edit.h"
+#include "core/model/lookup.h"
+#include "core/xml/patch.h"
+#include "core/xml/reader.h"
+#include "core/xml/writer.h"
+#include "tests/support/catch.h"
+#include "tests/support/folder.h"
+#include "tests/support/model_text.h"
+
+using namespace forage;
+using test::replaced;
+
+namespace {
+
+std::string group(const std::string& id, const std::string& type) {
+    return fmt::format(
+        "<Group id=\"{0}\" name=\"{0}\"><Topology><TopologyRect hcount=\"{{n}}\" vcount=\"1\"/></Topology>"
+        "<Neuron name=\"{1}\"/></Group>",
+        id, type);
+}
+
+/// A file with a type, two groups, a connection with a formula, and ports.
+const std::string half_text = R"(<iqrEntity type="Process">
+  <NeuronType name="unit">
+    <Equations>output y = exc * gain</Equations>
+  </NeuronType>
+  <Process id="p" name="Half">
+    <Constant name="gain" value="2"/>
+    <Constant name="n" value="3"/>
+    <Port name="in" group="src"/>
+    <Port name="out" group="dst"/>
+    )" + group("src", "unit") +
+                              group("dst", "unit") +
+                              R"(
+  </Process>
+  <Connection id="c" name="C" source="src" target="dst">
+    <Synapse name="synapseFixedWeight"><Parameter name="weight" value="{gain / 4}"/></Synapse>
+  </Connection>
+</iqrEntity>)";
+
+/// A file whose process uses the first.
+const std::string whole_text = R"(<iqrEntity type="Process">
+  <Process id="w" name="Whole">
+    <Constant name="gain" value="0.8"/>
+    <Constant name="n" value="2"/>
+    <Port name="in" group="inner.in"/>
+    <Port name="sum" group="sum"/>
+    )" + group("sum", "neuronLinearThreshold") +
+                               R"(
+  </Process>
+  <Process id="inner" name="Inner" path="half.iqrProcess">
+    <Constant name="gain" value="{gain / 2}"/><Constant name="n" value="{n}"/>
+  </Process>
+  <Connection id="x" name="X" source="inner.out" target="sum">
+    <Synapse name="synapseFixedWeight"><Parameter name="weight" value="{gain}"/></Synapse>
+  </Connection>
+</iqrEntity>)";
+
+const std::string nested = R"(<System id="s" name="Nested">
+  <Constant name="gain" value="0.1"/>
+  <Process id="a" name="A" path="whole.iqrProcess"/>
+  <Process id="b" name="B" path="whole.iqrProcess"><Constant name="gain" value="{4 * gain}"/></Process>
+  <Connection id="ab" name="A to B" source="a.sum" target="b.in">
+    <Synapse name="synapseFixedWeight"/>
+  </Connection>
+</System>)";
+
+struct Parts {
+    test::Folder folder;
+    Diagnostics diagnostics;
+    Parts() {
+        folder.write("half.iqrProcess", half_text);
+        folder.write("whole.iqrProcess", whole_text);
+    }
+    std::optional<model::System> read(const std::string& text) {
+        diagnostics = {};
+        return xml::read_system(folder.write("system.iqr", text), diagnostics);
+    }
+    /// The messages about a text with mistakes, without excerpts.
+    std::vector<std::string> mistakes(const std::string& text) {
+        read(text);
+        std::vector<std::string> out;
+        for (const auto& d : diagnostics.all())
+            out.push_back(
+                fmt::format("{}: {}{}", d.where.line, d.message, d.hint.empty() ? "" : " | " + d.hint));
+        return out;
+    }
+};
+
+std::string weight(const model::System& s, std::string_view id) {
+    const auto it = std::ranges::find(s.connections, id, &model::Connection::id);
+    REQUIRE(it != s.connections.end());
+    return it->synapse->settings.at(0).in_force(ParameterKind::real);
+}
+
+}  // namespace
+
+TEST_CASE("a part is used twice, with parts of its own and constants of each use") {
+    Parts parts;
+    auto s = parts.read(nested);
+    INFO(format(parts.diagnostics));
+    REQUIRE(s);
+    CHECK(model::group_paths(*s) == std::vector<std::string>{"A/sum", "A.Inner/src", "A.Inner/dst", "B/sum",
+                                                             "B.Inner/src", "B.Inner/dst"});
+    CHECK(weight(*s, "a.x") == "0.8");
+    CHECK(weight(*s, "a.inner.c") == "0.1");
+    CHECK(weight(*s, "b.x") == "0.4");  // its formula is one of the system's constants
+    CHECK(weight(*s, "b.inner.c") == "0.05");
+    CHECK(model::shape(model::find_group(*s, "b.inner.src")->topology).cells == 2);
+    const auto& ab = *model::find_connection(*s, "ab");
+    CHECK(ab.source == "a.sum");
+    CHECK(ab.target == "b.inner.src");  // through two ports
+    CHECK(s->neuron_types.size() == 1);
+
+    SECTION("a file keeps what its author wrote") {
+        const std::string written = xml::write_system(*s);
+        CHECK(written.find("source=\"a.sum\" target=\"b.in\"") != std::string::npos);
+        CHECK(written.find("NeuronType") == std::string::npos);
+        CHECK(parts.read(written) == s);
+    }
+    SECTION("a constant that is set is written where the part is used") {
+        auto changed = *s;
+        const Registry types;
+        const auto a = model::parse_assignment(changed, types, "A.gain = 0.6", "--set", parts.diagnostics);
+        REQUIRE(a);
+        model::set(changed, *a);
+        CHECK(weight(changed, "a.inner.c") == "0.075");
+        const std::string text = nested;
+        const auto patch = xml::patch((parts.folder.path / "system.iqr").string(), text, *s, changed, false);
+        INFO(patch.text);
+        CHECK(patch.text.find("path=\"whole.iqrProcess\">\n    <Constant name=\"gain\" value=\"0.6\"/>") !=
+              std::string::npos);
+    }
+    SECTION("without links the system computes the same") {
+        auto embedded = *s;
+        model::embed_links(embedded);
+        const auto again = parts.read(xml::write_system(embedded));
+        INFO(format(parts.diagnostics));
+        REQUIRE(again);
+        for (const char* id : {"a.x", "a.inner.c", "b.x", "b.inner.c"})
+            CHECK(weight(*again, id) == weight(*s, id));
+    }
+}
+
+TEST_CASE("mistakes about parts are found together, each once and with the place of the use") {
+    Parts parts;
+    CHECK(
+        parts.mistakes(replaced(replaced(nested, "source=\"a.sum\"", "source=\"a.summ\""), "target=\"b.in\"",
+                                "target=\"b.inner.src\"")) ==
+        std::vector<std::string>{
+            "5: 'b.inner.src' is no port of 'half.iqrProcess' | there are 'a.in', 'a.sum', 'b.in', 'b.sum'"});
+    CHECK(parts.mistakes(
+              replaced(nested, "Constant name=\"gain\" value=\"{4", "Constant name=\"gian\" value=\"{4")) ==
+          std::vector<std::string>{"4: 'whole.iqrProcess' has no constant 'gian' | did you mean 'gain'?"});
+
+    parts.folder.write("half.iqrProcess", replaced(half_text, "{gain / 4}", "{gain / 4"));
+    parts.folder.write("whole.iqrProcess", replaced(whole_text, "{gain / 2}", "{gian / 2}"));
+    const auto found = parts.mistakes(nested);
+    CHECK(found == std::vector<std::string>{
+                       "10: gain = '{gian / 2}': there is no constant 'gian' | did you mean 'gain'?"});
+    CHECK(format(parts.diagnostics).find("used at " + (parts.folder.path / "system.iqr").string() + ":3") !=
+          std::string::npos);
+
+    parts.folder.write("half.iqrProcess", replaced(replaced(half_text, "group=\"src\"", "group=\"scr\""),
+                                                   "name=\"out\"", "name=\"src\""));
+    CHECK(parts.mistakes(nested) ==
+          std::vector<std::string>{
+              "8: there is no group 'scr' here | did you mean 'src'?",
+              "9: the port 'src' has the id of another group | give the port another name"});
+    parts.folder.write("half.iqrProcess", whole_text);
+    CHECK(parts.mistakes(nested) == std::vector<std::string>{"9: 'half.iqrProcess' would contain itself"});
+}
+
+TEST_CASE("a file without ports is linked once, and a type has one meaning") {
+    Parts parts;
+    parts.folder.write("plain.iqrProcess",
+                       replaced(replaced(half_text, "<Port name=\"in\" group=\"src\"/>", ""),
+                                "<Port name=\"out\" group=\"dst\"/>", ""));
+    const std::string twice = replaced(replaced(nested, "whole", "plain"), "whole", "plain");
+    const auto found = parts.mistakes(twice);
+    REQUIRE(found.size() == 1);
+    CHECK(found[0].find("the ids 'src', 'dst', 'c' would occur twice") != std::string::npos);
+
+    parts.folder.write("other.iqrProcess", replaced(half_text, "exc * gain", "exc"));
+    CHECK(
+        parts.mistakes(R"(<System id="s" name="S">
+  <Process id="a" name="A" path="half.iqrProcess"/>
+  <Process id="b" name="B" path="other.iqrProcess"/></System>)") ==
+        std::vector<std::string>{fmt::format("2: the type 'unit' is declared otherwise in '{}' | give one of "
+                                             "them another name",
+                                             (parts.folder.path / "half.iqrProcess").string())});
+}
+
+TEST_CASE("an extracted process has its types, and ports for the connections that left it") {
+    Parts parts;
+    const auto s = parts.read(R"(<System id="s" name="S"><Constant name="n" value="2"/>
+  <NeuronType name="unit"><Equations>output y = exc</Equations></NeuronType>
+  <Process id="p" name="P">)" +
+                              group("a", "unit") + R"(</Process>
+  <Process id="q" name="Q">)" +
+                              group("b", "neuronLinearThreshold") +
+                              R"(</Process>
+  <Connection id="c" name="C" source="a" target="b"><Synapse name="synapseFixedWeight"/></Connection></System>)");
+    INFO(format(parts.diagnostics));
+    REQUIRE(s);
+    const auto file = model::extract_process(*s, "p");
+    CHECK(file.neuron_types.size() == 1);
+    parts.folder.write("p.iqrProcess", xml::write_process(file));
+    const auto again = parts.read(R"(<System id="s" name="S"><Process id="x" name="X" path="p.iqrProcess"/>
+  <Process id="y" name="Y" path="p.iqrProcess"/>
+  <Connection id="c" name="C" source="x.a" target="y.a"><Synapse name="synapseFixedWeight"/></Connection></System>)");
+    INFO(format(parts.diagnostics));
+    CHECK(again);
+}
