@@ -88,7 +88,7 @@ class Reference(unittest.TestCase):
 
     def test_systems_are_sound_and_run(self):
         systems = SYSTEM.findall(PAGES[0].read_text())
-        self.assertEqual(len(systems), 10)
+        self.assertEqual(len(systems), 11)
         for name, text in PROCESS.findall(PAGES[0].read_text()):
             (self.here / f"{name}.iqrProcess").write_text(text)
             self.forage("convert", f"{name}.iqrProcess", "copy.iqrProcess")
