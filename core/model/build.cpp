@@ -367,12 +367,18 @@ void complete(std::span<Process> processes, std::span<Connection> connections) {
         place(p.icon, process++);
         if (p.linked()) p.placeholder.front().icon = p.icon;
         int group = 0;
-        for (Group& g : p.groups) place(g.icon, group++);
+        for (Group& g : p.groups) place(g.icon, group++), g.terse = false;
     }
     for (Connection& c : connections) {
-        c.terse = false;
+        c.terse = c.terse_synapse = false;
         if (!c.line) c.line.emplace();
     }
+}
+
+void shorten(std::span<Process> processes, std::span<Connection> connections) {
+    for (Process& p : processes)
+        for (Group& g : p.groups) g.terse = true;
+    for (Connection& c : connections) c.terse = c.terse_synapse = true;
 }
 
 void rename(System& system, std::string_view id, std::string name) {

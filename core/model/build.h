@@ -93,6 +93,10 @@ void make_original(ProcessFile& file, Diagnostics& diagnostics);
 /// arborizations and functions are written, and all items have a place in the diagram.
 void complete(std::span<Process> processes, std::span<Connection> connections);
 
+/// Lets the writer leave out what is the same in most systems, and write rectangles and fixed weights as
+/// attributes.
+void shorten(std::span<Process> processes, std::span<Connection> connections);
+
 /// An id that is not in use: `preferred`, or `preferred` followed by the lowest number that makes it unique.
 std::string fresh_id(const System& system, const std::string& preferred);
 

@@ -103,14 +103,17 @@ std::string first_words(std::string_view text) {
     return std::string(line.substr(0, end)) + "...";
 }
 
-const SynapseUse& synapse_of(const Connection& connection) {
-    static const SynapseUse none, fixed = [] {
+const SynapseUse& fixed_weight() {
+    static const SynapseUse fixed = [] {
         SynapseUse out;
         out.type = "synapseFixedWeight";
         return out;
     }();
-    if (connection.synapse) return *connection.synapse;
-    return std::holds_alternative<Weights>(connection.pattern) ? fixed : none;
+    return fixed;
+}
+
+const SynapseUse& synapse_of(const Connection& connection) {
+    return connection.synapse ? *connection.synapse : fixed_weight();
 }
 
 std::string resolved(const std::string& path, const Location& at) {

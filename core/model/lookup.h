@@ -49,8 +49,9 @@ std::string suggest_group(std::string_view wanted, const std::vector<std::string
 /// command line, which is no file, they begin in the working directory.
 std::string resolved(const std::string& path, const Location& at);
 
-/// The synapses of a connection. Weights without a type are those of synapseFixedWeight; other connections
-/// without a type have an empty one.
+/// The synapses of a connection for which a file says nothing else: synapseFixedWeight.
+const SynapseUse& fixed_weight();
+/// The synapses of a connection: fixed_weight() where it has none.
 const SynapseUse& synapse_of(const Connection& connection);
 
 /// The beginning of the first line of a text, by which messages name it.

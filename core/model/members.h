@@ -67,6 +67,7 @@ inline constexpr auto members_of<Group> = std::tuple{
     Member{&Group::note, "the note", Effect::none},
     Member{&Group::icon, "the place", Effect::none},
     Member{&Group::comments, "the comments", Effect::none},
+    Member{&Group::terse, "the omission of defaults", Effect::none},
     Member{&Group::at, "the location", Effect::none},
 };
 
@@ -113,6 +114,7 @@ inline constexpr auto members_of<Connection> = std::tuple{
     Member{&Connection::comments, "the comments", Effect::none},
     Member{&Connection::linked, "the file", Effect::none},
     Member{&Connection::terse, "the omission of defaults", Effect::none},
+    Member{&Connection::terse_synapse, "the omission of defaults", Effect::none},
     Member{&Connection::at, "the location", Effect::none},
     Member{&Connection::source_at, "the location", Effect::none},
     Member{&Connection::target_at, "the location", Effect::none},

@@ -174,6 +174,7 @@ struct Group {
     std::optional<std::string> note;
     std::optional<Icon> icon;
     std::vector<std::string> comments;  ///< the XML comments before and inside the element
+    bool terse = false;  ///< whether its file gives a rectangle as attributes of the group, or leaves it out
     Location at;
     friend bool operator==(const Group&, const Group&) = default;
 };
@@ -233,6 +234,7 @@ struct Connection {
     std::vector<std::string> comments;
     bool linked = false;  ///< whether it comes from the file of a linked process
     bool terse = false;  ///< whether its file leaves out elements; the writer leaves out those with a default
+    bool terse_synapse = false;  ///< whether its file gives a fixed weight as an attribute, or leaves it out
     Location at, source_at, target_at, input_at, state_at;
     friend bool operator==(const Connection&, const Connection&) = default;
 };

@@ -464,10 +464,7 @@ class Validator {
         const bool weighted = std::holds_alternative<Weights>(c.pattern);
         const auto& use = synapse_of(c);
         const SynapseType* type = registry_.synapse(use.type);
-        if (!c.synapse && !weighted) {
-            out_.error(c.at, fmt::format("connection '{}' has no synapse type", c.name),
-                       "add <Synapse name=\"synapseFixedWeight\"/>");
-        } else if (type) {
+        if (type) {
             check_settings(use, type->parameters);
             check_with_type(use, *type, trim(c.name));
             check_feedback(use, *type, target);

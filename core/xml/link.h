@@ -16,7 +16,8 @@ struct Use {
 
 /// Replaces the processes of a file that link others by the content of these files: at most once a file
 /// without ports, whose ids stay as they are, and any number of times a part, which has ports. Connections to
-/// ports get their groups. Returns whether all files could be taken over. `use` is how the file itself is used; null for a file that stands alone.
+/// ports get their groups. Returns whether all files could be taken over. `use` is how the file itself is
+/// used; null for a file that stands alone.
 bool link(model::System& system, const Use* use, Diagnostics& diagnostics);
 
 /// The content of a process file, as link() takes it over: the first process is that of the file.

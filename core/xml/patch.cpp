@@ -5,6 +5,7 @@
 
 #include "core/base/alignment.h"
 #include "core/model/constants.h"
+#include "core/model/lookup.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
 
@@ -320,10 +321,13 @@ bool same_content(const model::System& a, const model::System& b) {
         for (auto& p : s.processes) {
             if (p.linked()) p = model::Process(p.placeholder.front());
             p.comments.clear();
-            for (auto& g : p.groups) g.comments.clear();
+            for (auto& g : p.groups) g.comments.clear(), g.terse = false;
         }
         std::erase_if(s.connections, [](const model::Connection& c) { return c.linked; });
-        for (auto& c : s.connections) c.comments.clear(), c.terse = false;
+        for (auto& c : s.connections) {
+            c.comments.clear(), c.terse = c.terse_synapse = false;
+            c.synapse = model::synapse_of(c);
+        }
         return s;
     };
     return content(a) == content(b);

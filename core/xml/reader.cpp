@@ -191,7 +191,17 @@ class Reader {
 
     model::Group group(const Element& e) {
         auto g = located<model::Group>(e);
-        g.topology = topology(e.child("Topology").children().front());
+        if (const Element t = e.child("Topology")) {
+            for (const auto& attribute : element_of<model::RectTopology>().attributes)
+                if (const Value value = e[attribute.rule.name])
+                    out_.error(value.where(),
+                               fmt::format("a group has either <Topology> or {}", attribute.rule.name),
+                               "remove one of them");
+            g.topology = topology(t.children().front());
+        } else {
+            g.topology = of<model::RectTopology>(e);
+            g.terse = true;
+        }
         g.neuron = use<model::TypeUse>(e.child("Neuron"));
         g.note = note(e);
         g.icon = icon(e);
@@ -273,6 +283,19 @@ class Reader {
         read("Arborization", c.arborization, &Reader::arborization);
         read("AttenuationFunction", c.attenuation, &Reader::function);
         read("DelayFunction", c.delay, &Reader::function);
+        const Value weight = e["weight"];
+        const bool has_weights = std::holds_alternative<model::Weights>(c.pattern);
+        if (weight && (e.child("Synapse") || has_weights))
+            out_.error(
+                weight.where(),
+                fmt::format("a connection has either {} or weight", has_weights ? "<Weights>" : "<Synapse>"),
+                "remove one of them");
+        if (!e.child("Synapse") && !has_weights) {
+            c.terse_synapse = true;
+            c.synapse = model::fixed_weight();
+            c.synapse->at = e.where();
+            if (weight) c.synapse->settings = {{"weight", weight.text(), weight.where(), weight.where()}};
+        }
         if (const Element s = e.child("Synapse")) {
             c.synapse = use<model::SynapseUse>(s);
             only_holders(s, {"Freedback"});

@@ -64,6 +64,19 @@ inline auto system_elements() {
         {{&TypeDeclaration::name, required(text("name", "what groups or connections call it")),
           &TypeDeclaration::name_at},
          {&TypeDeclaration::doc, omit_default(text("doc", "what it is, in a sentence"))}});
+    const auto rectangle = element<RectTopology>(
+        "TopologyRect", "a rectangle of cells", "",
+        {{&RectTopology::width, decisive(cells("hcount", "cells in a row"))},
+         {&RectTopology::height, decisive(cells("vcount", "cells in a column"))},
+         {&RectTopology::wrap_y, flag("cylinderHor", "the upper edge meets the lower one")},
+         {&RectTopology::wrap_x, flag("cylinderVert", "the left edge meets the right one")}});
+    auto short_rectangle = rectangle.rules();
+    for (auto& rule : short_rectangle) {
+        rule.value.doc += "; short for <TopologyRect>";
+        if (std::exchange(rule.required, false)) rule.value.otherwise = "1";
+    }
+    auto weight = omit_default(number("weight", "of synapses with a fixed weight; short for <Synapse>"));
+    weight.value.formula = true, weight.value.otherwise = "1";
     return std::tuple{
         element<System>(
             "System", "a brain model: processes and the connections between their groups",
@@ -163,15 +176,11 @@ inline auto system_elements() {
                        {&Icon::y, in("pixels", coordinate("y", "its upper edge"))},
                        {&Icon::width, in("pixels", whole("width", "of the icon", 0))},
                        {&Icon::height, in("pixels", whole("height", "of the icon", 0))}}),
-        element<Group>("Group", "cells of one neuron type", "Topology! Neuron! Note? DiagramIcon?",
-                       {{&Group::id, id()}, {&Group::name, name()}, {&Group::color, color()}}),
+        element<Group>("Group", "cells of one neuron type", "Topology? Neuron! Note? DiagramIcon?",
+                       {{&Group::id, id()}, {&Group::name, name()}, {&Group::color, color()}},
+                       short_rectangle),
         ElementRule{"Topology", "the cells of a group", "TopologyRect TopologySparse", {}, 1},
-        element<RectTopology>(
-            "TopologyRect", "a rectangle of cells", "",
-            {{&RectTopology::width, decisive(cells("hcount", "cells in a row"))},
-             {&RectTopology::height, decisive(cells("vcount", "cells in a column"))},
-             {&RectTopology::wrap_y, flag("cylinderHor", "the upper edge meets the lower one")},
-             {&RectTopology::wrap_x, flag("cylinderVert", "the left edge meets the right one")}}),
+        rectangle,
         ElementRule{"TopologySparse", "single cells", "Point+"},
         element<Point>(
             "Point", "a cell, or a vertex of a line", "",
@@ -194,7 +203,8 @@ inline auto system_elements() {
               &Connection::input_at},
              {&Connection::state,
               omit_default(text("state", "of the source, which it transmits; empty: the output")),
-              &Connection::state_at}}),
+              &Connection::state_at}},
+            {weight}),
         element<Weights>(
             "Weights", "in place of a pattern: the weight of each synapse, in a file or as rows of numbers",
             ":text",

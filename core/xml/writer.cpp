@@ -2,6 +2,7 @@
 
 #include <type_traits>
 
+#include "core/model/lookup.h"
 #include "core/model/parts.h"
 #include "core/xml/canvas.h"
 #include "core/xml/printer.h"
@@ -50,12 +51,12 @@ class Writer : Printer {
         begin(all...), close();
     }
     template <class Struct>
-    void attributes(const Struct& s) {
+    void attributes(const Struct& s, bool defaults = true) {
         for (const auto& a : element_of<Struct>().attributes)
             if (const auto* formula = formula_of(a, s))
                 attribute(a.rule.name.c_str(), *formula);
             else if (const auto value = value_of(a, s);
-                     !a.rule.omit_default || value != value_of(a, Struct()))
+                     (defaults && !a.rule.omit_default) || value != value_of(a, Struct()))
                 attribute(a.rule.name.c_str(), value);
     }
 
@@ -125,12 +126,16 @@ class Writer : Printer {
     void group(const model::Group& g) {
         comments(g.comments);
         begin(g);
-        open("Topology");
-        if (const auto* rect = std::get_if<model::RectTopology>(&g.topology))
-            leaf_of(*rect);
-        else
-            points("TopologySparse", std::get<model::SparseTopology>(g.topology).points);
-        close();
+        if (const auto* rect = std::get_if<model::RectTopology>(&g.topology); rect && g.terse) {
+            attributes(*rect, false);
+        } else {
+            open("Topology");
+            if (rect)
+                leaf_of(*rect);
+            else
+                points("TopologySparse", std::get<model::SparseTopology>(g.topology).points);
+            close();
+        }
         use(g.neuron), end_use(g.neuron);
         note(g.note);
         icon(g.icon);
@@ -152,14 +157,20 @@ class Writer : Printer {
             leaf("All");
     }
 
-    void pattern(const model::Pattern& pattern) {
+    void pattern(const model::Pattern& pattern, bool terse) {
         open("Pattern");
+        const auto populations = [&](const auto& p) {
+            if (terse && std::holds_alternative<model::All>(p.source) &&
+                std::holds_alternative<model::All>(p.target))
+                return;
+            population(p.source), population(p.target);
+        };
         if (const auto* mapped = std::get_if<model::MappedPattern>(&pattern)) {
             begin(*mapped);
-            population(mapped->source), population(mapped->target);
+            populations(*mapped);
         } else if (const auto* each = std::get_if<model::ForeachPattern>(&pattern)) {
             open("PatternForeach");
-            population(each->source), population(each->target);
+            populations(*each);
         } else {
             open("PatternTuples");
             for (const auto& t : std::get<model::TuplesPattern>(pattern).tuples) {
@@ -184,9 +195,18 @@ class Writer : Printer {
         close();
     }
 
+    /// Whether synapses have a fixed weight, and nothing else that an attribute could not say.
+    static bool has_only_weight(model::SynapseUse s) {
+        if (s.settings.size() == 1 && s.settings.front().name == "weight") s.settings.clear();
+        return s == model::fixed_weight();
+    }
+
     void connection(const model::Connection& c) {
         comments(c.comments);
-        begin(c);
+        open("Connection"), attributes(c, !c.terse);
+        const bool only_weight = c.terse_synapse && c.synapse && has_only_weight(*c.synapse);
+        if (only_weight)
+            for (const auto& s : c.synapse->settings) attribute("weight", s.value);
         const auto written = [&c](const auto& part) {
             return !c.terse || part != std::remove_cvref_t<decltype(part)>{};
         };
@@ -196,11 +216,11 @@ class Writer : Printer {
             if (!weights->text.empty()) text(weights->text);
             close();
         } else if (written(c.pattern) || (mapped && mapped->is_stated))
-            pattern(c.pattern);
+            pattern(c.pattern, c.terse);
         if (written(c.arborization)) arborization(c.arborization);
         if (written(c.attenuation)) function("AttenuationFunction", c.attenuation);
         if (written(c.delay)) function("DelayFunction", c.delay);
-        if (c.synapse) {
+        if (c.synapse && !only_weight) {
             use(*c.synapse);
             references("Freedback", c.synapse->feedback);
             end_use(*c.synapse);

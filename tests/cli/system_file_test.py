@@ -202,6 +202,12 @@ class Reference(unittest.TestCase):
         self.assertEqual(printed, (self.here / "terse.iqr").read_text())
         self.assertFalse((self.here / "-").exists())
         self.assertNotIn("Pattern", (self.here / "terse.iqr").read_text())
+        for form, has in (("--terse", self.assertNotIn), ("--full", self.assertIn)):
+            self.forage("convert", "terse.iqr", "rewritten.iqr", form)
+            for element in ("<TopologyRect", "<Synapse", "<PatternMapped"):
+                has(element, (self.here / "rewritten.iqr").read_text())
+            rewritten = re.findall(r"state +\w{16}", self.forage("run", "rewritten.iqr", "--cycles", "50", "--hash", "-o", "rewritten"))
+            self.assertEqual(rewritten, digests[0])
 
 
 if __name__ == "__main__":

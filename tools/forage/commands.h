@@ -36,6 +36,7 @@ struct ConvertOptions {
     std::string extract;
     std::string as_plugin;  ///< name of a declared type to write as the source of a plugin; empty: none
     std::vector<std::string> plugins;
+    bool terse = false, full = false;
     bool original = false;  ///< whether to write everything that the original requires
     bool embed = false, lenient = false;
 };

@@ -40,6 +40,13 @@ void warn_of_loss(const model::System& system, const model::ProcessFile& file, D
             fmt::format("a system that uses the file connects its ports: {}", separated(ports, ", ")));
 }
 
+/// Chooses the short or the long form of what both can say.
+void rewrite(const ConvertOptions& o, std::span<model::Process> processes,
+             std::span<model::Connection> connections) {
+    if (o.terse) model::shorten(processes, connections);
+    if (o.full) model::complete(processes, connections);
+}
+
 /// Says that an imported process is not connected yet, and names the ids that a connection needs.
 std::string about_import(model::System& system, const std::string& id) {
     const model::Process& process = *model::find_process(system, id);
@@ -93,6 +100,7 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
             return {};
         }
         if (o.original) model::make_original(*file, diagnostics);
+        rewrite(o, {&file->process, 1}, file->connections);
         return xml::write_process(*file);
     }
     if (!o.as_plugin.empty()) return plugin_source(read_system(o.input, o.plugins), o.as_plugin);
@@ -119,6 +127,7 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
             warn_of_paths(o, *system, types, diagnostics);
             model::move_files(*system, o.input, o.output, types);
         }
+        rewrite(o, system->processes, system->connections);
         return xml::write_system(*system);
     }
     if (o.extract.empty()) {
@@ -129,7 +138,8 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
     }
     const std::string id = process_id(*system, o.extract, diagnostics);
     if (id.empty()) return {};
-    const auto file = model::extract_process(*system, id);
+    auto file = model::extract_process(*system, id);
+    rewrite(o, {&file.process, 1}, file.connections);
     warn_of_loss(*system, file, diagnostics);
     return xml::write_process(file);
 }

@@ -306,6 +306,11 @@ void add_convert(CLI::App& app, ConvertOptions& o) {
         ->option_text("TYPE");
     add_plugins(convert, o.plugins);
     convert.add_flag("--embed", o.embed, "Write the content of linked processes instead of links");
+    auto* terse = convert.add_flag(
+        "--terse", o.terse,
+        "Leave out what is the same in most systems, and write sizes and weights as attributes");
+    convert.add_flag("--full", o.full, "Write what the file leaves out, and sizes and weights as elements")
+        ->excludes(terse);
     convert.add_flag("--original", o.original,
                      "Write plain numbers instead of constants and formulas, and what the file leaves out "
                      "and the original iqr requires: patterns, arborizations, "

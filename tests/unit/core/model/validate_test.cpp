@@ -182,9 +182,6 @@ TEST_CASE("Unknown groups at the ends of a connection are reported with the id t
     CHECK(one("source=\"a\"", "source=\"nothing\"") ==
           "28:44: error: the source 'nothing' of connection 'A to B' is not the id of a group | ids are the "
           "id attributes of <Group> elements");
-    CHECK(
-        one(synapse, "") ==
-        "28:3: error: connection 'A to B' has no synapse type | add <Synapse name=\"synapseFixedWeight\"/>");
 }
 
 TEST_CASE("A module's cross references must be set, known, once, and lead to groups") {

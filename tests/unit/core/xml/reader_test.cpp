@@ -188,7 +188,8 @@ TEST_CASE("Unknown attributes and elements are warnings when reading leniently, 
           "5:44: <Process> has no attribute 'mood' | there are 'id', 'name', 'hostname', 'port', "
           "'enableModule', 'path', 'color'");
     CHECK(mistake(replaced(small_system, "<Note/>", "<Remark/>"), true) ==
-          "11:5: <Process> cannot hold <Remark> | there are 'Constant', 'Port', 'Module', 'Note', 'DiagramIcon', "
+          "11:5: <Process> cannot hold <Remark> | there are 'Constant', 'Port', 'Module', 'Note', "
+          "'DiagramIcon', "
           "'Group'");
 }
 
@@ -240,7 +241,11 @@ TEST_CASE("An attribute that is absent has the default of the format table") {
     const std::string window =
         "<ArbEllipseWindow innerwidth=\"1\" innerheight=\"2\" outerwidth=\"3\" outerheight=\"4\" "
         "direction=\"PF\" initialization_probability=\"0.5\"/>";
-    std::vector<std::string> texts{small_system,
+    const std::string shortest =
+        "<System id=\"s\" name=\"S\"><Process id=\"p\" name=\"P\"><Group id=\"a\" name=\"A\">"
+        "<Neuron name=\"neuronRandomSpike\"/></Group></Process>"
+        "<Connection id=\"c\" name=\"C\" source=\"a\" target=\"a\"/></System>";
+    std::vector<std::string> texts{shortest, small_system,
                                    replaced(small_system, pattern, "<PatternMapped type=\"all\"/>"),
                                    replaced(small_system, "<Pattern>" + pattern + "</Pattern>",
                                             "<Weights form=\"list\">0 0 1</Weights>")};
@@ -264,6 +269,7 @@ TEST_CASE("An attribute that is absent has the default of the format table") {
     for (const auto& rule : xml::system_format().elements)
         for (const auto& attribute : rule.attributes) {
             if (attribute.value.otherwise.empty()) continue;
+            if (attribute.name == "weight") continue;  // a setting that is left out is not one of 1
             INFO("<" << rule.name << " " << attribute.name << ">");
             const auto text = std::find_if(texts.begin(), texts.end(), [&](const std::string& t) {
                 return t.find("<" + rule.name + " ") != std::string::npos;
@@ -275,6 +281,40 @@ TEST_CASE("An attribute that is absent has the default of the format table") {
             ++tried;
         }
     CHECK(tried > 20);
+}
+
+TEST_CASE("Sizes and weights may be attributes, and what is left out has its default") {
+    const auto system = [](const std::string& group, const std::string& connection) {
+        return "<System id=\"s\" name=\"S\">\n<Process id=\"p\" name=\"P\">\n<Group id=\"a\" name=\"A\"" +
+               group +
+               "<Neuron name=\"neuronRandomSpike\"/></Group></Process>\n"
+               "<Connection id=\"c\" name=\"C\" source=\"a\" target=\"a\"" +
+               connection + "</System>";
+    };
+    const std::string text = system(" hcount=\"{1 + 2}\" vcount=\"2\">", " weight=\"{1 / 4}\"/>");
+    auto s = system_of(text);
+    CHECK(model::shape(s.processes[0].groups[0].topology).cells == 6);
+    CHECK(s.connections[0].synapse->type == "synapseFixedWeight");
+    CHECK(s.connections[0].synapse->settings.at(0).computed == "0.25");
+    const std::string written = xml::write_system(s);
+    CHECK(written.find("hcount=\"{1 + 2}\" vcount=\"2\">") != std::string::npos);
+    CHECK(written.find("weight=\"{1 / 4}\"/>") != std::string::npos);
+    CHECK(system_of(written) == s);
+    model::complete(s.processes, s.connections);
+    const std::string full = xml::write_system(s);
+    for (const char* element :
+         {"<TopologyRect", "<Parameter name=\"weight\" value=\"{1 / 4}\"/>", "<ArbRect"})
+        CHECK(full.find(element) != std::string::npos);
+
+    const auto least = system_of(system(">", "/>"));
+    CHECK(model::shape(least.processes[0].groups[0].topology).cells == 1);
+    CHECK(least.connections[0].synapse == model::fixed_weight());
+    CHECK(mistake(system(" hcount=\"3\"><Topology><TopologyRect hcount=\"3\" vcount=\"1\"/></Topology>",
+                         "/>")) == "3:32: a group has either <Topology> or hcount | remove one of them");
+    CHECK(mistake(system(">", " weight=\"2\"><Synapse name=\"synapseFixedWeight\"/></Connection>")) ==
+          "4:59: a connection has either <Synapse> or weight | remove one of them");
+    CHECK(mistake(system(">", " weight=\"2\"><Weights>1</Weights></Connection>")) ==
+          "4:59: a connection has either <Weights> or weight | remove one of them");
 }
 
 TEST_CASE("A connection may leave out its pattern, arborization and functions") {
