@@ -92,9 +92,9 @@ class Reference(unittest.TestCase):
         for name, text in PROCESS.findall(PAGES[0].read_text()):
             (self.here / f"{name}.iqrProcess").write_text(text)
             self.forage("convert", f"{name}.iqrProcess", "copy.iqrProcess")
-            self.assertNotIn("<Pattern", (self.here / "copy.iqrProcess").read_text())
-            self.forage("convert", f"{name}.iqrProcess", "copy.iqrProcess", "--original")
-            self.assertIn("<PatternMapped", (self.here / "copy.iqrProcess").read_text())
+            self.assertNotIn("<ArbRect", (self.here / "copy.iqrProcess").read_text())
+            self.forage("convert", f"{name}.iqrProcess", "copy.iqrProcess", "--full")
+            self.assertIn("<ArbRect", (self.here / "copy.iqrProcess").read_text())
         for name, text in systems:
             with self.subTest(name):
                 (self.here / "x.iqr").write_text(text)

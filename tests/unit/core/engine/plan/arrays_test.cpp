@@ -158,7 +158,7 @@ TEST_CASE("weights are the initial state of synapses that learn") {
 
 TEST_CASE("states begin with a value, in all cycles before the first one") {
     auto s = pair(3, 2);
-    s.constants.push_back({"start", "0.25", {}, {}, {}, {}, {}, {}, {}});
+    s.constants.push_back({"start", "0.25", {}, {}, {}, {}, false, {}, {}, {}});
     auto& neuron = model::find_group(s, "b")->neuron;
     neuron.type = "neuronLeakyIntegrator";
     neuron.initial = {{"a", "{2 * start}"}, {"act", "-1.5"}};
