@@ -144,7 +144,7 @@ std::string add_link(model::System& system, const model::ProcessFile& file, cons
     const auto is_taken = [&](const auto& p) { return model::trim(p.name) == name; };
     for (int n = 2; std::ranges::any_of(system.processes, is_taken); ++n)
         name = fmt::format("{} {}", first, n);
-    auto made = model::add_process(system, name);
+    auto made = model::add_process(system, name, model::fresh_id(system, file.process.id));
     model::find_process(system, made)->path =
         own.empty()  // before the first save
             ? fs::absolute(path).string()
