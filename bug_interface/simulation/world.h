@@ -12,8 +12,8 @@
 #include "bug_interface/motion/physics.h"
 #include "bug_interface/simulation/game.h"
 #include "bug_interface/simulation/movable_object.h"
-#include "bug_interface/simulation/patches.h"
 #include "bug_interface/simulation/robot.h"
+#include "bug_interface/simulation/surroundings.h"
 #include "bug_interface/simulation/trials.h"
 #include "bug_interface/simulation/world_queries.h"
 #include "bug_interface/world/description.h"
@@ -33,6 +33,8 @@ struct WorldOptions {
     bool game = false;          ///< whether the challenge's game is played in a world without rules
     /// How many steps are made together; all but the default is for tests.
     Physics::Stepping stepping = Physics::Stepping::strides;
+    /// Those of another world with the same description, to share; null: the world makes its own.
+    std::shared_ptr<Surroundings> surroundings = nullptr;
 };
 
 /// A world with robots and movable objects. A robot is a model with a link named "bug" and the velocity
@@ -168,7 +170,7 @@ class World final : public Environment {
     std::vector<DrawnSolid> drawing() const;
     /// The static visuals, for cameras and maps. They are built by the first call. Throws std::runtime_error
     /// when the picture of a floor cannot be read.
-    std::shared_ptr<const Scene> scene() const;
+    std::shared_ptr<const Scene> scene() const { return surroundings_->scene(); }
     const WorldDescription& description() const { return description_; }
     const Physics& physics() const { return *physics_; }
 
@@ -221,8 +223,8 @@ class World final : public Environment {
     std::vector<Reach> reach_;      ///< per body, per substep
     std::vector<Velocity> drives_;  ///< of the robots in the current stride, with noise
     std::unique_ptr<Physics> physics_;
-    mutable std::shared_ptr<const Scene> scene_;
-    mutable std::optional<std::vector<Patch>> patches_;
+    std::shared_ptr<Surroundings> surroundings_;
+    mutable const std::vector<Patch>* patches_ = nullptr;  ///< those of the surroundings, once asked for
 };
 
 /// A description of a world for users: robots, start poses, targets, bounds, whether there are trials, and

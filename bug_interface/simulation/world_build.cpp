@@ -42,7 +42,10 @@ double highest_point(const std::vector<Robot>& robots) {
 }  // namespace
 
 World::World(const WorldDescription& description, const WorldOptions& options)
-    : description_(description), options_(options) {
+    : description_(description),
+      options_(options),
+      surroundings_(options.surroundings ? options.surroundings
+                                         : std::make_shared<Surroundings>(description)) {
     const double factor = options.real_time_factor.value_or(description.step * description.update_rate);
     constexpr double max_substeps = 1e18;  // of a system that model::validate() refuses
     substeps_per_cycle_ = std::min(factor / (options.cycles_per_second * description.step), max_substeps);

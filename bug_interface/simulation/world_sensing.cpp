@@ -36,11 +36,6 @@ void World::remember() {
     for (Robot& robot : robots_) robot.sensors.remember(cycle_, options_.latency);
 }
 
-std::shared_ptr<const Scene> World::scene() const {
-    if (!scene_) scene_ = std::make_shared<const Scene>(static_part(description_));
-    return scene_;
-}
-
 MovingVisuals& World::visuals() {
     if (!visuals_placed_) moving_visuals_.forget_places();
     visuals_placed_ = true;

@@ -49,7 +49,7 @@ Eigen::Vector2d World::looks_at(std::size_t bug) const {
 }
 
 std::vector<std::string> World::patch_colours() const {
-    if (!patches_) patches_ = patches_of(scene()->floors());
+    patches_ = &surroundings_->patches();
     std::vector<std::string> out;
     for (const Patch& patch : *patches_) out.push_back(patch.colour);
     return out;

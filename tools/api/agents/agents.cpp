@@ -89,6 +89,8 @@ std::shared_ptr<const AgentTask> AgentTask::read(AgentOptions options) {
     } else {
         diagnostics.lenient = options.input.lenient;
         out->sources_.world = bug::read_world(options.input.world, diagnostics);
+        if (out->sources_.world)
+            out->sources_.surroundings = std::make_shared<bug::Surroundings>(*out->sources_.world);
     }
     throw_errors(diagnostics);
     complete_agents(options, *out->sources_.world);

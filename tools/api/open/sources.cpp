@@ -285,6 +285,7 @@ Sources read_others(const RunInput& input, Diagnostics& diagnostics) {
     for (const std::string& path : input.more)
         if (auto other = read_any(path, diagnostics)) out.more.push_back(std::move(*other));
     if (!input.world.empty()) out.world = bug::read_world(input.world, diagnostics, {}, input.world_text);
+    if (out.world) out.surroundings = std::make_shared<bug::Surroundings>(*out.world);
     out.replay = read_table(input.replay, diagnostics);
     return out;
 }
@@ -350,6 +351,7 @@ std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Di
         options.sensor_rates = input.sensor_rates;
         options.latency = input.latency;
         options.game = input.game;
+        options.surroundings = sources.surroundings;
         out.world = bug::World::make(*sources.world, options, diagnostics);
     }
     if (sources.system && !sources.plugins_failed) {

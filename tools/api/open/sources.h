@@ -24,7 +24,8 @@ struct Sources {
     std::optional<model::System> system;         ///< all systems, joined; empty when the first is not read
     std::vector<model::System> more;             ///< the systems besides the first
     std::optional<bug::WorldDescription> world;  ///< empty without a world, and when it could not be read
-    std::optional<DriveTable> replay;            ///< empty without a table
+    std::shared_ptr<bug::Surroundings> surroundings = {};  ///< of the world, for all that are assembled
+    std::optional<DriveTable> replay;                      ///< empty without a table
     std::vector<plugin::Plugin> plugins;
     bool plugins_failed = false;  ///< whether a plugin could not be loaded, so that types may be missing
 };
