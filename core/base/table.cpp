@@ -1,6 +1,7 @@
 #include "core/base/table.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
@@ -16,12 +17,50 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(blanks) + 1 - first);  // npos + 1 is 0
 }
 
+/// Whether a field was meant as a number: also nan, inf, 0x10, 1e999, and those of a JSON list.
+bool resembles_number(std::string_view field) {
+    field.remove_prefix(std::min(field.find_first_not_of('['), field.size()));
+    field = field.substr(0, field.find_last_not_of(']') + 1);  // npos + 1 is 0
+    if (field.starts_with('"')) field = field.substr(1, field.find('"', 1) - 1);
+    const std::string text(field);
+    char* end = nullptr;
+    std::strtod(text.c_str(), &end);
+    return !text.empty() && end == text.c_str() + text.size();
+}
+
+/// Whether one of the first rows of a text is one of a table: it begins with a number (or names the columns,
+/// from `cycle` on). Where blanks divide fields, too, half of them are numbers.
+bool has_row_of_numbers(std::string_view text, bool commas_only) {
+    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+    int rows = 0;
+    while (rows < 64 && !text.empty()) {
+        const auto line = text.substr(0, text.find('\n'));
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+        const auto row = trimmed(line).substr(0, 4096);
+        if (row.empty() || row.starts_with('#')) continue;
+        if (row == "cycle" || row.starts_with("cycle,") || row.starts_with("cycle;")) return true;
+        const std::string_view separators = commas_only ? ",;\t" : " \t,;";
+        std::size_t fields = 0, numbers = 0;
+        for (auto at = row.find_first_not_of(separators); at < row.size();) {
+            const auto end = std::min(row.find_first_of(separators, at), row.size());
+            const bool is_number = resembles_number(trimmed(row.substr(at, end - at)));
+            if (fields++ == 0 && !is_number) break;
+            numbers += is_number ? 1 : 0;
+            at = row.find_first_not_of(separators, end);
+        }
+        if (numbers > 0 && (commas_only || 2 * numbers >= fields)) return true;
+        rows += fields > 0 ? 1 : 0;
+    }
+    return rows == 0;  // there is nothing to quote
+}
+
 }  // namespace
 
 TableReader::TableReader(std::string_view text, std::string path, Layout layout, std::string_view refusal,
                          std::string_view hint)
     : source_(std::make_shared<SourceFile>(
           SourceFile{std::move(path), std::string(text.substr(0, std::size_t{1} << 20))})),
+      refusal_(refusal),
       layout_(layout),
       max_fields_(max_fields_of_text),
       text_(text) {
@@ -135,7 +174,14 @@ void TableReader::fault(std::pair<int, int> place, std::string message, std::str
 }
 
 void TableReader::require_sound() const {
-    if (failed()) throw FileError(source_, faults_);
+    if (failed()) fail();
+}
+
+void TableReader::fail() const {
+    if (source_->path.empty() || refusal_.empty() ||
+        has_row_of_numbers(source_->text, layout_ == Layout::csv))
+        throw FileError(source_, faults_);
+    refuse(fmt::format("{}: no row begins with a number", refusal_));
 }
 
 void TableReader::require_whole() {
@@ -148,7 +194,7 @@ void TableReader::refuse(std::string message, std::string_view hint) const {
 }
 void TableReader::refuse(std::string_view piece, std::string message, std::string_view hint) {
     fault(piece, std::move(message), hint);
-    throw FileError(source_, faults_);
+    fail();
 }
 
 }  // namespace forage

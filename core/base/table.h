@@ -17,7 +17,8 @@ namespace forage {
 /// Reads a text row by row and collects up to a hundred faults.
 ///
 /// Blanks around a field are ignored. A byte order mark is skipped, and so are lines that begin with '#',
-/// except in a list.
+/// except in a list. Nothing of a text without a row of numbers is quoted: it may be any file of the user,
+/// named by the file of another person.
 class TableReader {
   public:
     enum class Layout {
@@ -78,11 +79,13 @@ class TableReader {
 
   private:
     static constexpr std::size_t max_faults = 100;
+    [[noreturn]] void fail() const;
     bool take_line();
     bool read_more();
     void split();
 
     std::shared_ptr<const SourceFile> source_;  ///< with the beginning of the text, for excerpts
+    std::string refusal_;                       ///< "this is not a table"
     Layout layout_ = Layout::csv;
     std::size_t max_fields_;
     std::string_view text_;  ///< the rest of the text, or of the block

@@ -4,6 +4,7 @@
 
 #include <unistd.h>
 
+#include "core/base/named_file.h"
 #include "tests/support/catch.h"
 
 using namespace forage;
@@ -82,12 +83,39 @@ TEST_CASE("All faults are reported at once, each with its line and column") {
     CHECK(faults([&] { read(Layout::list, "1,\n2, x,\ny"); }) ==
           Texts{"2:4 'x' is not a number", "3:1 'y' is not a number"});
     std::string many;
-    for (int i = 0; i < 300; ++i) many += "x,x\n";
+    for (int i = 0; i < 300; ++i) many += "1,x\n";
     CHECK(faults([&] { read(Layout::csv, many); }).size() == 100);
     CHECK(faults([&] { read(Layout::csv, "\x89PNG"); }) ==
           Texts{"0:0 this is not a table, but a PNG picture"});
     CHECK(faults([&] { read(Layout::csv, std::string("1,\0", 3)); }) ==
           Texts{"1:3 the byte 0x00 does not occur in a text"});
+}
+
+TEST_CASE("Nothing of a file without a row of numbers is quoted") {
+    const auto said = [](const std::string& text, Layout layout) {
+        try {
+            TableReader in(text, "t", layout, "this is not a table");
+            while (in.next())
+                for (const auto& f : in.fields()) in.number(f);
+            in.require_sound();
+        } catch (const FileError& e) {
+            Diagnostics out;
+            report(e, out);
+            return format(out);
+        }
+        return std::string();
+    };
+    const std::string refused = "t: error: this is not a table: no row begins with a number\n";
+    for (const auto layout : {Layout::csv, Layout::blocks, Layout::list})
+        for (const char* text :
+             {"root:x:0:0:secret\nmail:*:8:8:,secret,1,2\n", "machine a login b password 1 2\n",
+              "{\"a\": \"secret\"}", "0 5 * * * backup --token secret\n", "export KEY=secret", "-"})
+            CHECK(said(text, layout) == refused);
+    for (const char* text :
+         {"1,2\n3,secret\n", "a,b\n1,secret\n", "# remark\nnan,x\n", "\"1\",x\n", "0x10,x"})
+        CHECK(said(text, Layout::csv).find("is not a number") != std::string::npos);
+    CHECK(said(" ,\n", Layout::list).find("there is no number here") != std::string::npos);
+    CHECK(said("x 0 1\n0 1 0\n", Layout::blocks).find("'x' is not a number") != std::string::npos);
 }
 
 TEST_CASE("Columns are found by the names in the first row, and later rows must have as many fields") {
