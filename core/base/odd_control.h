@@ -10,9 +10,13 @@ namespace forage {
 
 /// Whether a text has a control character that is no white space, such as ESC or U+0085.
 inline bool has_odd_control(std::string_view text) {
-    std::string rest(text);
-    std::erase_if(rest, [](char c) { return c == '\t' || c == '\n' || c == '\r'; });
-    return has_control(rest);
+    while (!text.empty()) {
+        const std::size_t length = utf8_length(text);
+        const bool is_white = text[0] == '\t' || text[0] == '\n' || text[0] == '\r';
+        if (length > 0 && !is_white && is_control(character_number(text))) return true;
+        text.remove_prefix(std::max<std::size_t>(length, 1));
+    }
+    return false;
 }
 
 }  // namespace forage

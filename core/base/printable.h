@@ -10,19 +10,44 @@
 
 namespace forage {
 
-/// Whether `text` has a control character, such as a line end or U+0085.
+/// The Unicode number of the first character of a text, which utf8_length() has found sound. 0xffff for one
+/// of four bytes, none of which is a control character.
+inline unsigned character_number(std::string_view text) {
+    const auto bits = [&](std::size_t i, unsigned mask) {
+        return static_cast<unsigned>(static_cast<unsigned char>(text[i])) & mask;
+    };
+    switch (utf8_length(text)) {
+        case 1:
+            return bits(0, 0x7f);
+        case 2:
+            return bits(0, 0x1f) << 6 | bits(1, 0x3f);
+        case 3:
+            return bits(0, 0x0f) << 12 | bits(1, 0x3f) << 6 | bits(2, 0x3f);
+        default:
+            return 0xffff;
+    }
+}
+
+/// Whether a character is one of the control characters of ASCII and Unicode.
+inline bool is_control(unsigned number) { return number < ' ' || (number >= 0x7f && number < 0xa0); }
+/// Whether a character begins another line or changes the order of what follows, so that a name looks like
+/// another one: U+2028 to U+202E, U+2066 to U+2069.
+inline bool reorders(unsigned number) {
+    return (number >= 0x2028 && number <= 0x202e) || (number >= 0x2066 && number <= 0x2069);
+}
+
+/// Whether `text` has a control character, such as a line end or U+0085, or one that reorders it.
 inline bool has_control(std::string_view text) {
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const auto byte = static_cast<unsigned char>(text[i]);
-        const auto next = i + 1 < text.size() ? static_cast<unsigned char>(text[i + 1]) : 0u;
-        if (byte < ' ' || byte == 0x7f || (byte == 0xc2 && next >= 0x80 && next < 0xa0)) return true;
+    while (!text.empty()) {
+        const std::size_t length = utf8_length(text);
+        if (const auto c = character_number(text); length > 0 && (is_control(c) || reorders(c))) return true;
+        text.remove_prefix(std::max<std::size_t>(length, 1));
     }
     return false;
 }
 
-/// `text` with its control characters, except line ends and tabs, and its bytes that are not UTF-8 as
-/// escapes:
-/// "\x1b" for ESC. A terminal would carry them out.
+/// `text` with its control characters, except line ends and tabs, the characters that reorder it, and its
+/// bytes that are not UTF-8 as escapes: "\x1b" for ESC. A terminal would carry them out.
 inline std::string printable(std::string_view text) {
     std::string out;
     const auto escape = [&](const char* form, unsigned number) {
@@ -30,17 +55,17 @@ inline std::string printable(std::string_view text) {
         std::snprintf(buffer, sizeof buffer, form, number);
         out += buffer;
     };
-    for (std::size_t i = 0; i < text.size();) {
-        const std::size_t length = utf8_length(text.substr(i));
-        const auto byte = static_cast<unsigned char>(text[i]);
-        const unsigned next = length == 2 ? static_cast<unsigned char>(text[i + 1]) : 0u;
+    while (!text.empty()) {
+        const std::size_t length = utf8_length(text);
+        const auto byte = static_cast<unsigned char>(text[0]);
+        const auto character = character_number(text);
         if (length == 0 || (byte < ' ' && byte != '\n' && byte != '\t'))
             escape("\\x%02x", byte);
-        else if (byte == 0x7f || (byte == 0xc2 && next < 0xa0))  // U+0080 to U+009F are control characters
-            escape("\\u%04x", length == 2 ? next : byte);
+        else if (byte >= ' ' && (is_control(character) || reorders(character)))
+            escape("\\u%04x", character);
         else
-            out += text.substr(i, length);
-        i += std::max<std::size_t>(length, 1);
+            out += text.substr(0, length);
+        text.remove_prefix(std::max<std::size_t>(length, 1));
     }
     return out;
 }
