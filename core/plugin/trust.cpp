@@ -45,7 +45,7 @@ bool prepare_list(Diagnostics& diagnostics) {
         diagnostics.error({}, e.what());
         return false;
     }
-    auto found = insecure(list);
+    auto found = insecure_plugin(list);
     if (found) diagnostics.add(std::move(*found));
     return !found;
 }
@@ -133,7 +133,7 @@ std::string trust_list() {
 std::vector<std::string> trusted_folders() {
     std::vector<std::string> out;
     const std::string list = trust_list();
-    if (list.empty() || insecure(list)) return out;
+    if (list.empty() || insecure_plugin(list)) return out;
     std::ifstream in(list);
     for (std::string line; std::getline(in, line);)
         if (!line.empty()) out.push_back(line);

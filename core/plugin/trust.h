@@ -16,7 +16,8 @@ std::optional<Diagnostic> insecure(const std::string& path);
 /// The error of a folder that is insecure(), or that other users may replace because they may change a folder
 /// around it. In one with the sticky bit, they cannot rename what is not theirs.
 std::optional<Diagnostic> insecure_folder(const std::string& path);
-/// The error of a shared object that is insecure(), or is in an insecure_folder().
+/// The error of a shared object, or of the list of trusted folders, that is insecure(), or is in an
+/// insecure_folder().
 std::optional<Diagnostic> insecure_plugin(const std::string& path);
 
 /// The canonical folder of a plugin.
@@ -25,7 +26,7 @@ std::string folder_of(const std::string& plugin);
 /// The file with the trusted folders, one canonical path per line: $XDG_CONFIG_HOME/forage/trusted-plugins,
 /// or the same in ~/.config. Empty without a home.
 std::string trust_list();
-/// The trusted folders; none when other users may change the list.
+/// The trusted folders; none when other users may change or replace the list.
 std::vector<std::string> trusted_folders();
 bool is_trusted(const std::string& folder);
 /// Adds a folder to the list. Reports an insecure folder, and a list that cannot be written.

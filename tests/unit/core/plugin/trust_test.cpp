@@ -126,4 +126,10 @@ TEST_CASE("A list that others may write counts for nothing") {
     REQUIRE_FALSE(trusting(home.folder()).failed());
     fs::permissions(plugin::trust_list(), fs::perms::others_write, fs::perm_options::add);
     CHECK_FALSE(plugin::is_trusted(home.folder()));
+    fs::permissions(plugin::trust_list(), fs::perms::others_write, fs::perm_options::remove);
+    CHECK(plugin::is_trusted(home.folder()));
+    const auto around = fs::path(plugin::trust_list()).parent_path();
+    fs::permissions(around, fs::perms::others_write, fs::perm_options::add);  // who may replace it
+    CHECK_FALSE(plugin::is_trusted(home.folder()));
+    CHECK(trusting(home.folder()).failed());
 }
