@@ -43,7 +43,7 @@ int number_attribute(hid_t set, const char* name) {
     return out;
 }
 
-/// Opens a data set of which the file itself holds the numbers, as they are: HDF5 reads no other file, and
+/// Opens a data set of numbers that the file itself holds, as they are: HDF5 reads no other file, and
 /// unpacks nothing.
 Hdf5Handle open_set(hid_t file, const std::string& place) {
     Hdf5Handle out(H5Dopen2(file, place.c_str(), H5P_DEFAULT), H5Dclose, "find '" + place + "'");
@@ -52,6 +52,9 @@ Hdf5Handle open_set(hid_t file, const std::string& place) {
         throw std::runtime_error("the numbers of '" + place + "' are in other files");
     if (H5Pget_nfilters(made) != 0)
         throw std::runtime_error("'" + place + "' is compressed; 'h5repack -f NONE' unpacks a file");
+    const Hdf5Handle type(H5Dget_type(out), H5Tclose, "read a type");
+    if (const auto kind = H5Tget_class(type); kind != H5T_INTEGER && kind != H5T_FLOAT)
+        throw std::runtime_error("'" + place + "' does not hold numbers");
     return out;
 }
 

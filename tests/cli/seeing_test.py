@@ -344,6 +344,16 @@ class Claims(Cli):
 
         self.refused(packed, "'/P/B' is compressed; 'h5repack -f NONE' unpacks a file")
 
+    def test_what_holds_no_numbers_is_refused(self):
+        def pairs(file):
+            file["P"].create_dataset("B", data=numpy.zeros((100, 2, 3), dtype=[("a", "f8"), ("b", "i4")]))
+
+        def lists(file):
+            file["P"].create_dataset("B", shape=(100,), dtype=h5py.special_dtype(vlen="f8"))
+
+        for change in (pairs, lists):
+            self.refused(change, "'/P/B' does not hold numbers")
+
     def test_attributes_of_other_kinds_harm_nothing(self):
         def odd(file):
             attributes = file["P/A/act"].attrs
