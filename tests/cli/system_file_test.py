@@ -8,6 +8,7 @@ usage: system_file_test.py FORAGE PROJECT [TEST...]
 import math
 import os
 import pathlib
+import pty
 import re
 import subprocess
 import sys
@@ -208,6 +209,17 @@ class Reference(unittest.TestCase):
                 has(element, (self.here / "rewritten.iqr").read_text())
             rewritten = re.findall(r"state +\w{16}", self.forage("run", "rewritten.iqr", "--cycles", "50", "--hash", "-o", "rewritten"))
             self.assertEqual(rewritten, digests[0])
+
+    def test_a_note_does_not_steer_the_terminal_on_which_a_file_is_printed(self):
+        note = "red \u009b31m \u202e"
+        (self.here / "a.iqr").write_text(f'<System id="s" name="S"><Process id="p" name="P"><Note>{note}</Note></Process></System>')
+        self.assertIn(note, self.forage("convert", "a.iqr", "-"))  # into a file, byte for byte
+        mine, its = pty.openpty()
+        subprocess.run([FORAGE, "convert", "a.iqr", "-"], cwd=self.here, stdout=its, check=True)
+        os.close(its)
+        printed = os.read(mine, 65536).decode()
+        os.close(mine)
+        self.assertIn("red \\u009b31m \\u202e", printed)
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <forage/system.h>
+#include <unistd.h>
 
 #include "core/base/output_files.h"
 #include "core/base/print.h"
@@ -162,7 +163,10 @@ int convert(const ConvertOptions& options) {
     print(stderr, "{}", format(diagnostics));
     if (diagnostics.failed()) return bad_input;
     if (!prints) write_file(options.output, text);
-    std::fputs((prints ? text : "").c_str(), stdout);
+    if (prints && isatty(STDOUT_FILENO))
+        print("{}", text);  // which escapes what a terminal would carry out
+    else if (prints)
+        std::fputs(text.c_str(), stdout);
     print(prints ? stderr : stdout, "{}", notes);
     return fine;
 }
