@@ -1,8 +1,10 @@
 #include "bug_interface/module/gazebo_bug.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -214,6 +216,11 @@ void GazeboBug::check(const ModulePorts& ports, Diagnostics& diagnostics) {
                                        : !(place_sigma > 0) ? "placeSigma"
                                                             : "headSigma"),
                           "placeXMax, placeYMax, placeSigma and headSigma must be above 0");
+    constexpr double fastest = 1000;  // a step must not lead further than numbers of the world reach
+    for (const auto& [name, speed] : {std::pair{"transSpeed", trans_speed}, {"rotSpeed", rot_speed}})
+        if (!(std::abs(speed) <= fastest))
+            diagnostics.error(at_parameter(name), fmt::format("{} is more than {}", name, fastest),
+                              "in m/s and rad/s; a robot drives at about 1");
 
     world_ = dynamic_cast<World*>(ports.environment);
     if (!world_) return;

@@ -4,6 +4,8 @@
 #include <map>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "core/types/registry.h"
 #include "tests/unit/bug_interface/worlds.h"
 
@@ -186,6 +188,15 @@ TEST_CASE("The module reports errors of its groups and parameters") {
         b.set("placeSigma", 0.0);
         CHECK(b.problem().find("must be above 0 @placeSigma") != std::string::npos);
     }
+    for (const char* speed : {"transSpeed", "rotSpeed"})
+        for (const double value : {-1e300, 1e38, 1001.0}) {
+            Bench b(world.get());
+            b.set(speed, value);
+            CHECK_THAT(
+                b.problem(),
+                ContainsSubstring(fmt::format(
+                    "{0} is more than 1000 | in m/s and rad/s; a robot drives at about 1 @{0}", speed)));
+        }
 }
 
 TEST_CASE(
