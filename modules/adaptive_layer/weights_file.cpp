@@ -2,12 +2,12 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <stdexcept>
 #include <string_view>
 
 #include <fmt/format.h>
 
+#include "core/base/output_files.h"
 #include "core/base/table.h"
 
 namespace forage::adaptive {
@@ -54,15 +54,15 @@ void write_weights(const std::string& path, const Eigen::MatrixXd& weights) {
         for (Index i = 0; i < weights.rows(); ++i) text += fmt::format("{:.6g}, ", weights(i, k));
         text += '\n';
     }
-    const std::string part = path + ".part";
-    std::ofstream out(part, std::ios::binary);
-    out << text;
-    out.close();
-    std::error_code error;
-    if (out) std::filesystem::rename(part, path, error);
-    if (!out || error) {
-        std::error_code ignored;
-        std::filesystem::remove(part, ignored);
+    // A system may come from another person: it must not replace other files of the user.
+    std::error_code none;
+    if (std::filesystem::is_regular_file(path, none) &&
+        read_file(path).find_first_not_of("0123456789+-.eEnaif, \t\r\n") != std::string::npos)
+        throw std::runtime_error(
+            fmt::format("cannot write the weights '{}': this file holds something else", path));
+    try {
+        write_file(path, text);
+    } catch (const std::runtime_error&) {
         throw std::runtime_error(fmt::format("cannot write the weights '{}'", path));
     }
 }

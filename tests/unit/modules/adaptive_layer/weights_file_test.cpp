@@ -55,6 +55,24 @@ TEST_CASE("Weights are read as they were written, to six digits") {
     CHECK(read_weights(file.path, 5, 3) == again);
 }
 
+TEST_CASE("Weights replace weights, and no other file") {
+    const MatrixXd w = MatrixXd::Ones(2, 2);
+    for (const char* text : {"", "1, 2, \n3, nan, \n"}) {
+        const File file(text);
+        write_weights(file.path, w);
+        CHECK(read_weights(file.path, 2, 2) == w);
+    }
+    const File file("export PATH=/bin\n"), other;
+    CHECK_THROWS_WITH(write_weights(file.path, w), ContainsSubstring("holds something else"));
+    std::filesystem::create_symlink(file.path, other.path);
+    CHECK_THROWS_WITH(write_weights(other.path, w), ContainsSubstring("holds something else"));
+    std::filesystem::remove(other.path);
+    std::filesystem::create_symlink(file.path, other.path + ".part");
+    write_weights(other.path, w);
+    CHECK(forage::test::read_text(file.path) == "export PATH=/bin\n");
+    CHECK(read_weights(other.path, 2, 2) == w);
+}
+
 TEST_CASE("White space between weights is ignored, and the last comma may be missing") {
     const MatrixXd expected = two_by_two(1, 3, 2, 4);
     for (const char* text : {"1,2,3,4", "1, 2, \n3, 4, \n", " 1\n,\n\n2 ,\t3,4,\r\n", "+1,2.0,3e0,4,"})
@@ -71,7 +89,9 @@ TEST_CASE("A file without valid weights is rejected, with the location and the r
     CHECK_THAT(complaint("1, nan, 3, 4"), ContainsSubstring("'nan'"));
     CHECK_THAT(complaint("1, 1e300, 3, 4"), ContainsSubstring("'1e300'"));
     CHECK_THAT(complaint(""), ContainsSubstring("0 weights"));
-    CHECK_THAT(complaint("\x1b[31m"), ContainsSubstring("'?[31m'"));
+    CHECK_THAT(complaint("\x1b[31m"),
+               ContainsSubstring("these are not weights: no row begins with a number"));
+    CHECK_THAT(complaint("1, 2, \x1b[31m"), ContainsSubstring("'?[31m'"));
     CHECK_THAT(complaint("1, x, 3, \n4y, z"),
                ContainsSubstring("FILE:1:4: 'x'") && ContainsSubstring("and 2 more errors"));
 }
