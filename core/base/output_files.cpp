@@ -53,7 +53,8 @@ std::vector<std::string> remove_unfinished(const std::string& directory) {
     for (const auto& entry : fs::directory_iterator(directory, none)) {
         const fs::path name = entry.path().filename();
         const fs::path kind = name.stem().extension();
-        const bool ours = entry.is_regular_file(none) || kind == ".npz";  // archives grow in a folder
+        const bool ours = entry.is_regular_file(none) || entry.is_symlink(none) ||
+                          kind == ".npz";  // archives grow in a folder
         if (name.extension() == ".part" && ours && kinds.contains(kind)) out.push_back(name.string());
     }
     std::ranges::sort(out);
@@ -65,6 +66,8 @@ namespace {
 
 void write_partial(const std::string& path, std::string_view text) {
     check_regular_file(path);
+    std::error_code none;
+    std::filesystem::remove(partial(path), none);  // a link would lead to another file
     std::ofstream out(partial(path), std::ios::binary);
     out.write(text.data(), static_cast<std::streamsize>(text.size()));
     out.close();
@@ -98,8 +101,12 @@ void write_file(const std::string& path, std::string_view text) {
     constexpr int max_links = 40;  // as the system follows them
     for (int i = 0; i < max_links && std::filesystem::is_symlink(file, ignored); ++i)
         file = file.parent_path() / std::filesystem::read_symlink(file, ignored);
-    write_partial(file.string(), text);
-    finish(file.string());
+    write_result(file.string(), text);
+}
+
+void write_result(const std::string& path, std::string_view text) {
+    write_partial(path, text);
+    finish(path);
 }
 
 void write_durably(const std::string& path, std::string_view text, const std::string& keep) {

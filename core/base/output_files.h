@@ -24,7 +24,10 @@ std::vector<std::string> remove_unfinished(const std::string& directory);
 /// Writes `text` to partial(path) and renames it to `path`; a symbolic link stays one. Throws
 /// std::runtime_error.
 void write_file(const std::string& path, std::string_view text);
-/// Writes `text` to `path` as write_file() does, and makes sure that the file survives a power cut. An
+/// Writes `text` to partial(path) and renames it to `path`, where a symbolic link is replaced: the directory
+/// of results may come from another person, and its links lead to any file. Throws std::runtime_error.
+void write_result(const std::string& path, std::string_view text);
+/// Writes `text` to `path` as write_result() does, and makes sure that the file survives a power cut. An
 /// existing file is renamed to `keep`, unless that is empty.
 void write_durably(const std::string& path, std::string_view text, const std::string& keep = {});
 /// Makes sure that the content and the name of a file survive a power cut. Throws std::runtime_error.

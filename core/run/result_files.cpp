@@ -9,7 +9,7 @@ namespace forage {
 void ResultFiles::write(const std::string& name, const std::function<std::string()>& content) {
     if (name == kept_name_) kept_ = content();
     if (directory_.empty()) return;
-    attempt([&] { write_file(path(name), name == kept_name_ ? kept_ : content()); }, {name});
+    attempt([&] { write_result(path(name), name == kept_name_ ? kept_ : content()); }, {name});
 }
 
 void ResultFiles::attempt(const std::function<void()>& action, const std::vector<std::string>& names) {

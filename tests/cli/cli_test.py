@@ -453,6 +453,40 @@ class Mistakes(Cli):
             self.assertIn("caf\\xe9.iqr: error: the name of this file is not UTF-8\n  hint: rename it", done.stderr)
         self.assertEqual(len(list(self.here.iterdir())), 1)
 
+    def test_names_of_a_system_do_not_lead_out_of_the_results(self):
+        (self.here / "a" / "b").mkdir(parents=True)
+        (self.here / "a" / "b" / "x.iqr").write_text(WITHOUT_MODULE.replace('name="A"', 'name="../../../evil"').replace('name="P"', 'name="../../up"'))
+        group = "../../up/../../../evil"
+        self.forage("run", "a/b/x.iqr", "--cycles", "3", "--record", group, "--plot", f"time:{group}", "-o", "a/b/out")
+        self.assertEqual([p.name for p in self.here.iterdir()], ["a"])
+        self.assertEqual([p.name for p in (self.here / "a").iterdir()], ["b"])
+        self.assertEqual(sorted(p.name for p in (self.here / "a/b").iterdir()), ["out", "x.iqr"])
+
+    def test_links_in_a_folder_of_results_lead_nowhere(self):
+        (self.here / "x.iqr").write_text(WITHOUT_MODULE)
+        run = ["run", "x.iqr", "--cycles", "3", "--record", "P/A", "--plot", "time:P/A", "-o", "out"]
+        self.forage(*run)
+        self.forage("plot", "out")
+        self.forage("view", "out")
+        mine = self.here / "mine"
+        mine.write_text("mine")
+        names = [p.name for p in (self.here / "out").iterdir()]
+        self.assertIn("index.html", names)
+
+        def link(names):
+            for name in names:
+                (self.here / "out" / name).unlink(missing_ok=True)
+                (self.here / "out" / name).symlink_to(mine)
+
+        link([*names, *(name + ".part" for name in names)])
+        self.forage(*run)
+        self.assertEqual(mine.read_text(), "mine")
+        link(name for name in names if name.endswith((".png", ".html")))
+        self.forage("plot", "out")
+        self.forage("view", "out")
+        self.assertEqual(mine.read_text(), "mine")
+        self.assertTrue((self.here / "out/index.html").read_text().startswith("<!DOCTYPE html>"))
+
     def test_lenient_turns_unknown_names_into_warnings(self):
         bad = self.here / "bad.iqr"
         bad.write_text(SMALL_SYSTEM.replace('name="excGain"', 'name="exGain"'))
@@ -918,6 +952,7 @@ SMALL_SYSTEM = """<?xml version="1.0" encoding="UTF-8"?>
   </Connection>
 </System>
 """
+WITHOUT_MODULE = re.sub(r"<Module.*?</Module>", "", SMALL_SYSTEM, flags=re.DOTALL)
 
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

@@ -252,7 +252,7 @@ std::vector<std::string> draw(Results& results, const std::vector<std::string>& 
     for (const auto& [file, picture] : pictures)
         attempt([&, &file = file, &picture = picture] {
             make_directory(directory);
-            write_file(file, picture);
+            write_result(file, picture);
             written.push_back(file);
         });
     return written;

@@ -161,7 +161,7 @@ std::string write_page(const std::string& directory, Diagnostics& diagnostics) {
             draw(results, {}, directory, plot::Format::png, diagnostics);
     }
     const std::string file = (fs::path(directory) / "index.html").string();
-    write_file(file, results_page(directory));
+    write_result(file, results_page(directory));
     return file;
 }
 

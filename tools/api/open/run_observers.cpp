@@ -144,7 +144,7 @@ void add_remote(Preparation& p) {
         const auto drawn = command.item == RemoteCommand::Item::group
                                ? plot::draw_group_now(now, id, command.parameter, format, title)
                                : plot::draw_connection_now(now, id, format, title);
-        write_file(directory + "/" + drawn.name, drawn.content);
+        write_result(directory + "/" + drawn.name, drawn.content);
         return drawn.name;
     };
 }
