@@ -101,9 +101,26 @@ class Refusals(unittest.TestCase):
         for host in ('evil.example', f'127.0.0.1.evil.example:{port}', f'evil.example:{port}', '127.0.0.1', f'127.0.0.1:{port + 1}'):
             self.assertEqual(self.status('/', host=host), 403, host)
         self.assertEqual(self.status('/', 'Host: evil.example'), 403)
+        self.assertEqual(self.status('/', f'Origin: http://127.0.0.1:{port}', 'Origin: http://evil.example'), 403)
         upgrade = ('Upgrade: websocket', 'Connection: Upgrade', 'Sec-WebSocket-Version: 13', 'Sec-WebSocket-Key: AAAAAAAAAAAAAAAAAAAAAA==')
         for origin in ('http://evil.example', f'http://127.0.0.1:{port}.evil.example', 'null', f'https://127.0.0.1:{port}', f'http://localhost:{port}'):
             self.assertEqual(self.status('/ws', f'Origin: {origin}', *upgrade), 403, origin)
+
+    def test_it_listens_on_one_address(self):
+        for address in ('127.0.0.2', '::1'):  # every other one of this machine is answered by a server that listens on all
+            with self.assertRaises(OSError, msg=address):
+                socket.create_connection((address, self.studio.port), 5)
+
+    def test_a_secret_counts_only_where_the_page_sends_it(self):
+        token = self.studio.token
+        for header in (f'Cookie: token={token}; key={token}', f'Authorization: Bearer {token}'):
+            self.assertEqual(self.status('/picture?what=world', header), 403)
+        page = Page.__new__(Page)
+        page.connect(self.studio.port)
+        with self.assertRaises(ConnectionError):
+            page.send('["%s"]' % token)
+            page.receive(20)
+        page.close()
 
     def test_methods_paths_and_sizes(self):
         self.assertEqual(self.status('/', method='POST'), 405)
@@ -586,6 +603,11 @@ class OriginalPlots(unittest.TestCase):
             done = subprocess.run([forage, 'studio', system, '--world', world, '--plot-config', str(file)], capture_output=True, text=True)
             self.assertEqual(done.returncode, 2)
             self.assertIn('mine.conf:2:1: error:', done.stderr)
+            deep = pathlib.Path(folder, 'deep.layout.json')
+            deep.write_text('{"dock":' + 200000 * '[' + 200000 * ']' + '}')
+            done = subprocess.run([forage, 'studio', system, '--world', world, '--plot-config', str(deep)], capture_output=True, text=True, timeout=300)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn('too many lists and objects within each other', done.stderr)
 
 
 class Editing(unittest.TestCase):

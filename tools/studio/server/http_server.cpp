@@ -226,7 +226,7 @@ class HttpServer::Parts::Connection : public std::enable_shared_from_this<Connec
         };
         const std::string_view target(request_.target().data(), request_.target().size());
         const std::string path(target.substr(0, target.find('?')));
-        if (request_.count(http::field::host) != 1 ||
+        if (request_.count(http::field::host) != 1 || request_.count(http::field::origin) > 1 ||
             !is_from_here(view(http::field::host), view(http::field::origin), server_.port))
             return refuse(403, "This address is for pages of this machine.");
         if (request_.method() != http::verb::get) return refuse(405, "Only GET is served.");

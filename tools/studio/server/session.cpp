@@ -13,6 +13,7 @@
 #include "core/base/text_file.h"
 #include "core/model/refused.h"
 #include "tools/api/describe/describe_json.h"
+#include "tools/api/edit/json_text.h"
 #include "tools/api/open/sources.h"
 #include "tools/plot/world_map.h"
 #include "tools/studio/server/commands.h"
@@ -37,6 +38,7 @@ constexpr double save_rest = 1;             ///< s between two savings while the
 json read_layout(const Run& run, const std::string& path) {
     const std::string text = read_file(path);
     if (path.ends_with(".conf")) return plot_layout(run, path, text);
+    check_depth(size_of_json(text));
     json out = json::parse(text, nullptr, false);
     if (out.is_discarded())
         throw InputError("'" + path + "' is not a layout of the studio",

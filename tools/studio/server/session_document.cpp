@@ -335,7 +335,7 @@ bool Session::saved_values(json& described) const {
         if (it == use.settings.end()) return p["default"];
         if (p["kind"] == "text") return json(it->value);
         const json parsed = json::parse(it->in_force(ParameterKind::real), nullptr, false);
-        return parsed.is_discarded() ? json(it->value) : parsed;
+        return parsed.is_primitive() ? parsed : json(it->value);  // a mistake may be any text
     };
     for (auto& p : described["parameters"]) {
         if (saved && saved->type == here->type) p["loaded"] = value(*saved, p);

@@ -5,6 +5,7 @@
 
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
+#include "tools/api/edit/json_text.h"
 #include "tools/studio/server/commands/shared.h"
 #include "tools/studio/server/page_paths.h"
 #include "tools/studio/server/plot_layout.h"
@@ -45,7 +46,7 @@ json read_saved_layout(Session& s, const Request& r) {
     }
     const auto path = layout_path(s, name);
     check_readable(path, {FileKind::layout});
-    return {{"content", json::parse(read_file(path))}};
+    return {{"content", parse_json(read_file(path), path)}};
 }
 
 json convert_layout(Session& s, const Request& r) {
