@@ -156,6 +156,8 @@ def test_robots_do_not_start_in_each_other_and_options_are_known():
             env.reset(options={"start": start})
     with pytest.raises(forage.InputError, match="something is already at the start pose .-3, -1"):
         BugEnv(TWO).reset(options={"start": (-3, -1, 0)})  # where the Follower stands
+    with pytest.raises(forage.InputError, match="the options 'start' are no dictionary"):
+        env.reset(options="start")
     with pytest.raises(forage.InputError, match="unknown options begin"):
         env.reset(options={"begin": apart})
     with pytest.raises(forage.InputError, match="no agent Scuot"):
@@ -310,6 +312,11 @@ def test_what_is_no_action_is_refused_and_the_environment_goes_on(action):
         (dict(cycles_per_step=0), "at least 1 cycle"),
         (dict(action="joystick"), "velocity"),
         (dict(reward="Bug/target"), "is 32 numbers"),
+        (dict(reward=1.5), "reward 1.5 is neither a source"),
+        (dict(speed=(1e300, 1.5)), "transSpeed is more than 1000"),
+        (dict(speed=(1.0, -1e38)), "rotSpeed is more than 1000"),
+        (dict(end_at_target=2), "end_at_target is True or False, not 2"),
+        (dict(noise=None), "noise is True or False, not None"),
         (dict(render_mode="smell"), "rgb_array"),
         (dict(system=DAC), "name its sensor and motor groups"),
         (dict(system=DAC, sensors=["Bug/Lihgt"], motors=["Bug/Motor"]), "did you mean 'Bug/Light'"),

@@ -59,6 +59,8 @@ def _ports(ports: typing.Any) -> typing.Any:
 def _agent(robot: str, system: typing.Any, sensors: typing.Any, motors: typing.Any, reward: typing.Any) -> typing.Any:
     if system is not None and (sensors is None or motors is None):
         raise InputError("with a system, name its sensor and motor groups: sensors=['Bug/Light'], motors=['Bug/Motor']")
+    if not (reward is None or isinstance(reward, str) or callable(reward)):
+        raise InputError(f"the reward {reward!r} is neither a source, such as 'mean(Bug/Light)', nor a function of the environment")
     expression = reward if isinstance(reward, str) else ""
     return (robot, _ports("target" if sensors is None else sensors), _ports("motor" if motors is None else motors), expression)
 
@@ -80,6 +82,9 @@ def _task(world: typing.Any, system: typing.Any, agents: typing.Any, options: ty
     unknown = set(options) - set(usual)
     if unknown:
         raise TypeError(f"unknown options: {', '.join(sorted(unknown))}; there are {', '.join(usual)}")
+    for name in ("end_at_target", "noise", "paths"):
+        if not isinstance(options.get(name, True), (bool, numpy.bool_)):
+            raise InputError(f"{name} is True or False, not {options[name]!r}")
     return {"world": world, "system": system, "agents": agents, "every_robot": every_robot, **usual, **options}
 
 
@@ -99,6 +104,8 @@ def _action_space(motors: typing.Any, action: typing.Any) -> typing.Any:
 
 def _start(options: typing.Any) -> typing.Any:
     """The option of reset(); None without it."""
+    if not (options is None or isinstance(options, dict)):
+        raise InputError(f"reset(): the options {options!r} are no dictionary, such as {{'start': (0, -1, 1.57)}}")
     unknown = set(options or {}) - {"start"}
     if unknown:
         raise InputError(f"reset(): unknown options {', '.join(sorted(map(str, unknown)))}; there is start")
