@@ -476,6 +476,19 @@ class Trust(Plugins):
         self.forage(*self.RUNS[0], status=2)
         self.assertFalse(self.loaded())
 
+    def test_the_studio_loads_it_when_its_folder_is_trusted(self):
+        if not pathlib.Path(FORAGE).with_name("forage-studio").exists():
+            self.skipTest("there is no studio")
+        for trusted in (False, True):
+            if trusted:
+                self.forage("trust", "plugins")
+            environment = {**os.environ, "XDG_CONFIG_HOME": str(self.config), "XDG_STATE_HOME": str(self.config)}
+            done = subprocess.Popen([FORAGE, "studio", "system.iqr"], cwd=self.here, env=environment, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
+            done.stdout.readline()  # its address, or that it cannot start
+            done.terminate()
+            done.communicate(timeout=600)
+            self.assertEqual(self.loaded(), trusted)
+
     def test_a_system_of_known_types_runs_without_the_plugins_beside_it(self):
         self.system("neuronLinearThreshold")
         self.forage(*self.RUNS[0])
