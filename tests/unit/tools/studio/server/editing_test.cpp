@@ -912,6 +912,17 @@ TEST_CASE("what is edited is shown for the run, for the system, or for both") {
                                               "run.params[\"Bug/Light.threshold\"] = 0.75"));
 }
 
+TEST_CASE("names are one word in the commands that are shown, and carry nothing out") {
+    Editor e("reactive_foraging.iqr");
+    const auto shown = [&](const std::string& name, const char* value) {
+        e.edit({{{"do", "rename"}, {"id", "bug.light"}, {"name", name}}});
+        e.edit({{{"do", "parameter"}, {"id", "bug.light"}, {"name", "threshold"}, {"value", value}}});
+        return e.last["action"]["shell"].get<std::string>();
+    };
+    CHECK(shown("it's $(reboot)", "0.5") == "--set 'Bug/it'\\''s $(reboot).threshold=0.5'");
+    CHECK(shown("a\u202e\u2028b", "0.25") == "--set $'Bug/a\\342\\200\\256\\342\\200\\250b.threshold=0.25'");
+}
+
 TEST_CASE("a message that is too deep has an answer") {
     Editor e;
     json deep = 1;

@@ -77,6 +77,17 @@ TEST_CASE("a wrong argument is named, with its value and what is allowed") {
     CHECK(said(R"({"command": "stpe"})") == "there is no command 'stpe' | did you mean 'step'?");
 }
 
+TEST_CASE("a list of more than 10,000 texts is refused at once") {
+    Session session(small_system(), [](int, bool, const std::string&) {});
+    for (const auto& [command, member] : {std::pair{"set", "assignments"}, {"copy", "ids"}}) {
+        json message = {{"command", command}, {member, json(std::size_t{10'001}, json("x"))}};
+        CHECK(refusal(session, message) ==
+              "there is too much in '" + std::string(member) + "' | a message holds at most 10000 of them");
+        message[member].erase(0);
+        CHECK(session.execute(-1, message).dump().find("too much") == std::string::npos);
+    }
+}
+
 TEST_CASE("a null stands for an argument with a default") {
     Session session(small_system(), [](int, bool, const std::string&) {});
     const json reply = session.execute(-1, {{"command", "step"}, {"cycles", nullptr}});
