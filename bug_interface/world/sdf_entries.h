@@ -30,8 +30,11 @@ struct Entry {
     ItemElement body = {};                      ///< of a model or light
     const xml::SourceElement* state = nullptr;  ///< the <model> in <state> whose <pose> counts, or null
 
-    /// Whether it stands at a place of the floor.
+    /// Whether it stands at a place of the floor that its own numbers tell.
     bool placed() const {
+        const auto* pose = form == Form::site ? nullptr : child(placed_by(), "pose");
+        for (const char* attribute : {"relative_to", "frame"})
+            if (pose && !pose->value(attribute).empty() && pose->value(attribute) != "world") return false;
         return form == Form::include ? kind != "sun" : form == Form::model || form == Form::site;
     }
     bool is_model() const { return form == Form::include || form == Form::model; }

@@ -94,16 +94,19 @@ struct Row {
 constexpr Row rows[] = {
     {"sdf", "actor&:actor= light& model& world?", "version:version"},
     {"world",
-     "actor&:actor= atmosphere:*=* audio:*=* frame&:*= gravity:3=0,0,-9.8 gui:*=* include& light& "
+     "actor&:actor= atmosphere:*=* audio:*=* frame& gravity:3=0,0,-9.8 gui:*=* include& light& "
      "magnetic_field:3=* model& physics plugin& population&:*= road&:road= scene spherical_coordinates:*=* "
      "state wind:*=",
      "name"},
     {"state",
-     "deletions:*= insertions:*= iterations:*=* light&:*=* model&@state_model real_time:*=* sim_time:*=* "
+     "deletions:*= insertions:*= iterations:*=* light&@state_light model&@state_model real_time:*=* "
+     "sim_time:*=* "
      "wall_time:*=*",
      "world_name?=*"},
+    {"state_light", "pose@pose:p", "name"},
     {"state_model", "joint&:*= link&@state_link model&@state_model pose@pose:p scale:3=1,1,1", "name"},
     {"state_link", "acceleration:*=* collision&:*=* pose@pose:p velocity:p=* wrench:*=*", "name"},
+    {"frame", "pose@pose:p", "name attached_to?"},
     {"pose", "", "degrees?:b frame? relative_to? rotation_format?:rotation"},
     {"physics",
      "bullet:*=* dart:*=* gravity:3=0,0,-9.8 magnetic_field:3=* max_contacts:i=* max_step_size:step "
@@ -123,7 +126,7 @@ constexpr Row rows[] = {
     {"plugin", ":*", "name filename"},
     {"include", "name:s placement_frame:s plugin& pose@pose:p static:b uri+:uri", "merge?:b"},
     {"model",
-     "allow_auto_disable:b=* enable_wind:b=0 frame&:*= gripper&:*= include& joint& link& model& plugin& "
+     "allow_auto_disable:b=* enable_wind:b=0 frame& gripper&:*= include& joint& link& model& plugin& "
      "pose@pose:p self_collide:b=0 static:b",
      "name canonical_link?=* placement_frame?="},
     {"link",

@@ -324,7 +324,16 @@ class Reader {
                                     .number(physics.value("update_rate").number(world.update_rate));
         }
         world.ambient = read_colour(e.value("scene/ambient"), Colour(Colour::Constant(world.ambient)))(0);
-        const auto read_light = [&](const xml::Element& light, const xml::Element& placed) {
+        std::map<std::string_view, xml::Element> lights_in_state;  // a saved world has poses there
+        if (const xml::Element state = e.child("state"))
+            for (const xml::Element& light : state.children("light"))
+                if (light.child("pose")) lights_in_state.emplace(light["name"].view, light);
+        const auto read_light = [&](const xml::Element& light, const xml::Element& include) {
+            const auto name = include.value("name").view;
+            const auto state = lights_in_state.find(name.empty() ? light["name"].view : name);
+            const xml::Element placed = state != lights_in_state.end() ? state->second
+                                        : include.child("pose")        ? include
+                                                                       : light;
             if (light["type"].view != "directional") {
                 diagnostics_.warning(light.where(),
                                      "only directional lights are simulated; this one is ignored");
@@ -332,7 +341,7 @@ class Reader {
                 diagnostics_.warning(light.where(),
                                      "there are several directional lights; the first one is used");
             } else {
-                const Eigen::Vector3d d = in_.pose_of(placed.child("pose") ? placed : light).linear() *
+                const Eigen::Vector3d d = in_.pose_of(placed).linear() *
                                           read_vector(light.value("direction"), Eigen::Vector3d(0, 0, -1));
                 if (!(d.norm() > 0))
                     diagnostics_.error(light.where(), "a light needs a <direction> that is not 0",

@@ -1,8 +1,11 @@
 // The files of a world while they are read, and the mistakes in them.
 #pragma once
 
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bug_interface/world/description.h"
@@ -27,7 +30,7 @@ class SdfSource {
     /// The path that an <uri> stands for: relative to its file, then in the folders of models. Empty when
     /// nothing exists there.
     std::string found(const xml::Element& uri) const;
-    /// Reads the <pose> in `parent`.
+    /// Reads the <pose> in `parent`: its pose in the enclosing element, also when it is relative to another.
     Pose pose_of(const xml::Element& parent);
 
     Diagnostics& diagnostics;
@@ -35,9 +38,15 @@ class SdfSource {
 
   private:
     xml::Element checked(std::unique_ptr<const xml::Document> document, int errors_before);
+    /// What has a pose in a model or world, by its name.
+    const std::map<std::string_view, xml::Element>& frames_of(const xml::Element& scope);
+    /// The pose of a frame, link, joint or model in its `scope`, which is a model or a world. Nothing when
+    /// there is none of this name, or when it is placed relative to itself.
+    std::optional<Pose> frame_in(const xml::Element& scope, std::string_view name, int depth);
     void check_angles(const xml::Element& pose, const std::vector<double>& numbers);
 
     std::vector<std::unique_ptr<const xml::Document>> files_;
+    std::map<xml::Element, std::map<std::string_view, xml::Element>> frames_;
 };
 
 /// Reads three numbers; returns `otherwise` when the file does not contain them.

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include <fmt/format.h>
+
 #include "bug_interface/world/sdf_reader.h"
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
@@ -370,6 +372,20 @@ TEST_CASE("An edit of a model that <state> places changes its pose and its name 
     CHECK_THAT(set_in_world(text, id, "name", "Crate", models),
                ContainsSubstring("<state world_name='w'><model name=\"Crate\">"));
     CHECK_THAT(removed_from_world(text, "Box", models), !ContainsSubstring("Box"));
+}
+
+TEST_CASE("A model that is placed relative to another has no place that could be moved") {
+    const auto text = [](const char* frame) {
+        return fmt::format(
+            "<sdf version='1.9'><world name='w'><model name='Box'><pose relative_to='{}'>1 0 0 0 0 0"
+            "</pose><link name='l'/></model><frame name='f'/></world></sdf>",
+            frame);
+    };
+    ModelTexts models("a.world");
+    CHECK(items_of_world(text("world"), models)[1].placed);
+    CHECK_FALSE(items_of_world(text("f"), models)[1].placed);
+    CHECK_NOTHROW(moved_in_world(text("world"), "Box", 4, 5, {}, models));
+    CHECK_THROWS_AS(moved_in_world(text("f"), "Box", 4, 5, {}, models), std::invalid_argument);
 }
 
 TEST_CASE("A model is a robot or a resource also when it is merged from another one") {

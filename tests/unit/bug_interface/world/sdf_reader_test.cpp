@@ -1,6 +1,8 @@
 // Mistakes in world files.
 #include "bug_interface/world/sdf_reader.h"
 
+#include <fmt/format.h>
+
 #include "tests/unit/bug_interface/world_diagnostics.h"
 
 using namespace forage;
@@ -260,6 +262,46 @@ TEST_CASE("<state> says where the models of a saved world are") {
     CHECK_THAT(inner.said, ContainsSubstring("<state> moves 'l', a part of 'Cart'"));
 }
 
+TEST_CASE("A saved light is turned as <state> says") {
+    const Scratch scratch;
+    const auto in =
+        read_inside(scratch,
+                    "<light name='sun' type='directional'><pose>0 0 9 0 0 0</pose>"
+                    "<direction>0 0 -1</direction></light><state world_name='w'><light name='sun'>"
+                    "<pose frame=''>0 0 9 1.5707963267948966 0 0</pose></light></state>");
+    REQUIRE(in.world);
+    CHECK(in.said.empty());
+    REQUIRE(in.world->sun);
+    CHECK((*in.world->sun - Eigen::Vector3d(0, -1, 0)).norm() < 1e-9);
+}
+
+TEST_CASE("A <pose> may be relative to a frame, link, joint or model beside it") {
+    const Scratch scratch;
+    write_model(scratch, "models/m", "<model name='m'><link name='l'>" + shape + "</link></model>");
+    const auto in = read_inside(
+        scratch,
+        "<model name='A'><pose relative_to='turned'>1 0 0 0 0 0</pose><link name='l'>"
+        "<pose relative_to='tip'>0 0 1 0 0 0</pose><collision name='c'><pose relative_to='tip'>0 0 2 0 0 0"
+        "</pose><geometry><sphere><radius>0.1</radius></sphere></geometry></collision></link>"
+        "<frame name='tip' attached_to='k'><pose>0 0 0.5 0 0 0</pose></frame>"
+        "<link name='k'><pose>0 3 0 0 0 0</pose>" +
+            shape +
+            "</link></model><frame name='turned' attached_to='In'>"
+            "<pose degrees='true'>0 0 0 0 0 90</pose></frame><include><name>In</name><uri>model://m</uri>"
+            "<pose relative_to='world'>5 0 0 0 0 0</pose></include>"
+            "<model name='B'><pose relative_to='A'>1 0 0 0 0 0</pose><link name='l'/></model>");
+    CHECK(in.said.empty());
+    REQUIRE(in.world);
+    const auto& models = in.world->models;
+    const auto is_at = [](const Pose& pose, double x, double y, double z) {
+        return (pose.translation() - Eigen::Vector3d(x, y, z)).norm() < 1e-9;
+    };
+    CHECK(is_at(models[0].pose, 5, 1, 0));
+    CHECK(is_at(models[0].links[0].pose, 0, 3, 1.5));
+    CHECK(is_at(models[0].links[0].collisions[0].pose, 0, 0, 1));
+    CHECK(is_at(models[2].pose, 5, 2, 0));
+}
+
 TEST_CASE("A merged model's links become those of the model that includes it") {
     const Scratch scratch;
     write_model(scratch, "models/m",
@@ -372,6 +414,11 @@ TEST_CASE("The reader warns of what is probably not meant") {
     CHECK(said("<model name='m'><pose relative_to='world'>1 0 0 0 0 0</pose><link name='l'>"
                "<pose relative_to='__model__'>1 0 0 0 0 0</pose></link></model>")
               .empty());
-    CHECK_THAT(said("<model name='m'><pose relative_to='Bug'>1 0 0 0 0 0</pose></model>"),
-               ContainsSubstring("this <pose> is relative to 'Bug', which is not supported"));
+    for (const char* lost : {"Absent", "m"})  // which is not there, and itself
+        CHECK_THAT(
+            said(fmt::format("<model name='m'><pose relative_to='{}'>1 0 0 0 0 0</pose></model>", lost)),
+            ContainsSubstring(fmt::format("this <pose> is relative to '{}', which has no place here", lost)));
+    CHECK_THAT(said("<frame name='a' attached_to='b'/><frame name='b' attached_to='a'/>"
+                    "<model name='m'><pose relative_to='a'>1 0 0 0 0 0</pose></model>"),
+               ContainsSubstring("relative to 'a', which has no place here"));
 }
