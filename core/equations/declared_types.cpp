@@ -16,6 +16,13 @@ namespace {
 
 using Equations = std::shared_ptr<const Compiled>;
 
+/// All equations of a type, with a line break between their pieces.
+std::string text_of(const model::TypeDeclaration& d) {
+    std::string out;
+    for (const auto& piece : d.equations) out += (out.empty() ? "" : "\n") + piece.text;
+    return out;
+}
+
 /// The scalars of a program, as the parameters of a type: dt, t, and the constants.
 using Scalars = std::vector<double>;
 
@@ -156,12 +163,11 @@ class Builder {
     }
 
     Equations compile(const model::TypeDeclaration& d, bool synapse) {
-        std::string text;
-        for (const auto& piece : d.equations) text += (text.empty() ? "" : "\n") + piece.text;
         const Vocabulary names{synapse, model::names_of(d.constants), model::names_of(d.states), outer_};
-        auto out = std::make_shared<Compiled>(equations::compile(text, names, [&](const FormulaError& e) {
-            out_.error(place(d, e.at), fmt::format("{}: {}", d.name, e.what()), e.hint);
-        }));
+        auto out =
+            std::make_shared<Compiled>(equations::compile(text_of(d), names, [&](const FormulaError& e) {
+                out_.error(place(d, e.at), fmt::format("{}: {}", d.name, e.what()), e.hint);
+            }));
         if (out_.errors() > errors_before_) return out;
         for (const auto& w : out->warnings)
             out_.warning(place(d, w.at), fmt::format("{}: {}", d.name, w.what()), w.hint);
@@ -330,6 +336,23 @@ Location place(const model::TypeDeclaration& d, std::size_t at) {
         return out;
     }
     return d.at;
+}
+
+std::vector<EquationLine> lines(const model::TypeDeclaration& type) {
+    const std::string text = text_of(type);
+    const auto statements = read_statements(text, [](const FormulaError&) {});
+    std::vector<EquationLine> out;
+    for (std::size_t begin = 0, end = 0; begin < text.size(); begin = end + 1) {
+        end = std::min(text.find('\n', begin), text.size());
+        const auto written = model::trim(std::string_view(text).substr(begin, end - begin));
+        if (written.empty()) continue;
+        auto& line = out.emplace_back(std::string(written), place(type, begin).line);
+        for (const auto& s : statements)
+            if (s.at >= begin && s.at < end &&
+                std::ranges::find(line.computes, s.name) == line.computes.end())
+                line.computes.push_back(s.name);
+    }
+    return out;
 }
 
 void add_types(const model::System& system, Registry& registry, Diagnostics& diagnostics) {

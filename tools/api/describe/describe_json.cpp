@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "bug_interface/world/material.h"
+#include "core/base/number.h"
+#include "core/model/constants.h"
 #include "core/model/edit.h"
 #include "core/model/lookup.h"
 #include "core/model/operations.h"
@@ -45,6 +47,8 @@ json states_of(const NeuronType* type) {
         {"excIn", "Excitatory input"}, {"inhIn", "Inhibitory input"}, {"modIn", "Modulatory input"}};
     for (const auto& [name, label] : inputs)
         out.push_back({{"name", name}, {"label", label}, {"output", false}});
+    for (const auto& input : type->inputs)
+        out.push_back({{"name", input}, {"label", input}, {"output", false}});
     return out;
 }
 
@@ -181,17 +185,19 @@ json describe_system(const model::System& system, const Registry& registry, cons
         // Synapses with the same weight in all of them keep nothing that could be read.
         for (const auto& s : type && !type->has_gain ? type->states : std::vector<SynapseStateInfo>())
             states.push_back({{"name", s.name}, {"label", s.label}});
-        links.push_back({{"id", connection.id},
-                         {"name", connection.name},
-                         {"source", c.source},
-                         {"target", c.target},
-                         {"kind", connection.kind},
-                         {"type", connection.synapse.type},
-                         {"note", connection.notes},
-                         {"synapses", connection.synapses},
-                         {"form", connection.form},
-                         {"states", std::move(states)},
-                         {"line", line_of(c.line)}});
+        links.push_back(
+            {{"id", connection.id},
+             {"name", connection.name},
+             {"source", c.source},
+             {"target", c.target},
+             {"kind", connection.kind},
+             {"type", connection.synapse.type},
+             {"note", connection.notes},
+             {"synapses", connection.synapses},
+             {"form", connection.form},
+             {"states", std::move(states)},
+             {"fixed_weights", type && type->has_gain && std::holds_alternative<model::Weights>(c.pattern)},
+             {"line", line_of(c.line)}});
     }
     const double rate = system.cycles_per_second > 0 ? system.cycles_per_second : 25;
     return {{"type", "system"},
@@ -277,8 +283,10 @@ json describe_parameters(Run& run, std::string_view item) {
 
 json describe_settings(const model::TypeUse& use, const model::TypeUse* saved,
                        const std::vector<Parameter>& parameters, const std::string& owner) {
-    const auto value = [](const model::TypeUse& from, const Parameter& p) {
-        const auto* s = from.setting(p.name);
+    const auto formula = [](const model::Setting* s, const Parameter& p) {
+        return s && p.kind != ParameterKind::text && in_braces(s->value);
+    };
+    const auto value = [](const model::Setting* s, const Parameter& p) {
         if (!s) return json_of(p.default_value);
         const auto parsed = parse_parameter(p.kind, s->in_force(p.kind));
         return parsed ? json_of(*parsed) : json(s->value);
@@ -286,9 +294,48 @@ json describe_settings(const model::TypeUse& use, const model::TypeUse* saved,
     json out = json::array();
     for (const Parameter& p : parameters) {
         json row = declared(p);
-        row["value"] = value(use, p);
-        row["loaded"] = saved && saved->type == use.type ? value(*saved, p) : row["value"];
+        const auto* now = use.setting(p.name);
+        const auto* before = saved && saved->type == use.type ? saved->setting(p.name) : now;
+        row["value"] = value(now, p);
+        if (formula(now, p)) row["formula"] = now->value;
+        row["loaded"] = formula(before, p) ? json(before->value) : value(before, p);
         row["assignment"] = owner + "." + p.name;
+        out.push_back(std::move(row));
+    }
+    return out;
+}
+
+json describe_constants(const model::System& system, const model::System& saved,
+                        const model::Process* process) {
+    const auto written = [](const model::Constant& c) {
+        const auto number = parse_number<double>(c.value);
+        return number ? json(*number) : json(c.value);
+    };
+    model::Constants constants(system);
+    const auto in_force = [&](const std::string& name) -> std::optional<double> {
+        try {
+            return constants.value_of(name);
+        } catch (const FormulaError&) {  // it is among the problems
+            return std::nullopt;
+        }
+    };
+    json out = json::array();
+    for (const auto& name : model::constant_names(system)) {
+        const auto* c = model::find_constant(system, name);
+        if (process && std::ranges::none_of(process->constants, [&](const auto& own) { return &own == c; }))
+            continue;
+        const auto* before = model::find_constant(saved, name);
+        const auto number = in_force(name);
+        Parameter p;
+        p.name = p.label = name, p.doc = c->doc, p.unit = c->unit, p.kind = ParameterKind::real;
+        p.default_value = number.value_or(0);
+        json row = declared(p);
+        row["value"] = number ? json(*number) : json(c->value);
+        if (in_braces(c->value)) row["formula"] = c->value;
+        row["loaded"] = written(before ? *before : *c);
+        if (c->minimum) row["low"] = *c->minimum;
+        if (c->maximum) row["high"] = *c->maximum;
+        row["assignment"] = name;
         out.push_back(std::move(row));
     }
     return out;

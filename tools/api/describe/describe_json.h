@@ -26,11 +26,18 @@ nlohmann::json describe_parameters(Run& run, std::string_view item);
 /// The types of neurons, synapses and modules, and the forms of arborizations and functions, with their
 /// parameters: everything that a form needs.
 nlohmann::json describe_types(const Registry& registry);
+/// A type that a system declares: what it means, and its equations line by line.
+nlohmann::json describe_declaration(const model::TypeDeclaration& type);
+/// The constants of a process, or of the system and all processes when it is null, as describe_settings()
+/// describes parameters. `saved` is the saved file.
+nlohmann::json describe_constants(const model::System& system, const model::System& saved,
+                                  const model::Process* process);
 /// What may stand in a system file: its elements with their attributes and values, from the tables of which
 /// the check and the schema are made. With describe_types(), everything that an editor of the text needs.
 nlohmann::json describe_vocabulary();
 /// The parameters of a type in a system that is edited, with the values of `use`. `saved` is the same use in
-/// the saved file, or null. `owner` begins the names of assignments.
+/// the saved file, or null. `owner` begins the names of assignments. A number that follows a formula has the
+/// `formula`, too, and is `loaded` as the formula that the saved file has.
 nlohmann::json describe_settings(const model::TypeUse& use, const model::TypeUse* saved,
                                  const std::vector<Parameter>& parameters, const std::string& owner);
 

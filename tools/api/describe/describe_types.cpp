@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/equations/declared_types.h"
 #include "core/xml/rules.h"
 #include "tools/api/describe/describe_json.h"
 
@@ -55,6 +56,13 @@ json forms_in(const char* element) {
 }
 
 }  // namespace
+
+json describe_declaration(const model::TypeDeclaration& type) {
+    json equations = json::array();
+    for (const auto& e : equations::lines(type))
+        equations.push_back({{"text", e.text}, {"line", e.line}, {"computes", e.computes}});
+    return {{"doc", type.doc}, {"equations", std::move(equations)}};
+}
 
 json describe_types(const Registry& registry) {
     json neurons = json::array(), synapses = json::array(), modules = json::array();

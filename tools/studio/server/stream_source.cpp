@@ -7,6 +7,7 @@
 
 #include "bug_interface/simulation/world.h"
 #include "core/observe/source.h"
+#include "tools/studio/server/sampled_synapses.h"
 
 namespace forage::studio {
 namespace {
@@ -192,6 +193,8 @@ std::unique_ptr<StreamSource> find_stream_source(Run& run, std::string_view text
     std::unique_ptr<StreamSource> out;
     if (text.starts_with("world:")) {
         out = world_source(run, text);
+    } else if (text.starts_with("sampled(") && text.ends_with(')')) {
+        out = sampled_synapses(run, text.substr(8, text.size() - 9));
     } else {
         Diagnostics diagnostics;
         auto source = observe::find_source(run.layout(), text, "subscribe", diagnostics);

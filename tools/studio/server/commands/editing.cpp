@@ -47,6 +47,11 @@ struct Description {
     const model::System& saved;
     const Registry& registry;
 
+    /// The declaration of a type of this file; null for other types.
+    static json declaration(const std::vector<model::TypeDeclaration>& all, const std::string& type) {
+        const auto it = std::ranges::find(all, type, &model::TypeDeclaration::name);
+        return it == all.end() ? json() : describe_declaration(*it);
+    }
     template <class Type>
     json settings(const model::TypeUse& use, const Type* type, const std::string& id,
                   const std::string& name) {
@@ -66,6 +71,7 @@ struct Description {
                 {"topology", json_of(g.topology)},
                 {"cells", model::shape(g.topology).cells},
                 {"linked", p.linked()},
+                {"declaration", declaration(system.neuron_types, g.neuron.type)},
                 {"parameters", settings(g.neuron, registry.neuron(g.neuron.type), g.id, name)}};
     }
     json of(const model::Process& p) {
@@ -73,6 +79,7 @@ struct Description {
                     {"note", p.note.value_or("")}, {"icon", icon_of(p.icon)},  {"enabled", p.module_enabled},
                     {"linked", p.linked()},        {"path", p.path},           {"module", nullptr},
                     {"inputs", json::array()},     {"outputs", json::array()}, {"parameters", json::array()}};
+        out["constants"] = describe_constants(system, saved, &p);
         if (!p.module) return out;
         out["module"] = p.module->type;
         const auto* type = registry.module(p.module->type);
@@ -108,6 +115,7 @@ struct Description {
                     {"attenuation", json_of(c.attenuation)},
                     {"delay", json_of(c.delay)},
                     {"linked", c.linked},
+                    {"declaration", c.synapse ? declaration(system.synapse_types, c.synapse->type) : json()},
                     {"feedback", json::array()},
                     {"states", json::array()},
                     {"parameters", json::array()}};
@@ -154,6 +162,7 @@ struct Description {
                 {"port", system.port},
                 {"sync_plots", system.sync_plots},
                 {"cycles_per_second", system.cycles_per_second},
+                {"constants", describe_constants(system, saved, nullptr)},
                 {"parameters", json::array()}};
     }
 };

@@ -234,6 +234,92 @@ TEST_CASE("a constant changes the run and the file, and is undone in both") {
     CHECK(e.text() == before);
 }
 
+TEST_CASE("forms have the constants, equations and weights that the file declares") {
+    Editor e;
+    const std::string text = R"(<System id="s" name="S" cylesPerSecond="10">
+  <Constant name="n" value="3"/>
+  <Constant name="rate" value="2" minimum="0" maximum="4" unit="1/s" doc="How fast."/>
+  <Constant name="half" value="{rate / 2}"/>
+  <NeuronType name="leaky" doc="Leaks.">
+    <Equations>
+      u = exc - x             # the input
+      dx/dt = rate * (u
+                      + 0)
+      when x' &lt; 0: x' = 0, y' = 1
+      output x
+    </Equations>
+  </NeuronType>
+  <SynapseType name="fading"><Equations>weight' = 0.5 * weight; output psp = weight' * pre'</Equations></SynapseType>
+  <Process id="p" name="P">
+    <Constant name="own" value="5"/>
+    <Group id="a" name="A"><Topology><TopologyRect hcount="{n}" vcount="1"/></Topology><Neuron name="leaky"/></Group>
+    <Group id="b" name="B"><Topology><TopologyRect hcount="300" vcount="1"/></Topology><Neuron name="neuronNumeric"/></Group>
+  </Process>
+  <Connection id="c" name="C" source="a" target="a"><Weights>1 nan 3
+    nan nan nan
+    4 5 -6</Weights></Connection>
+  <Connection id="d" name="D" source="b" target="b">
+    <Weights form="list">0 0 -1
+      1 1 3
+      299 0 7</Weights>
+    <Synapse name="fading"/></Connection>
+</System>)";
+    std::ofstream(e.file) << text;
+    e.result({{"command", "open"}, {"system", e.file}});
+    REQUIRE(e.last["document"]["running_is_current"] == true);
+
+    const auto constant = [&](const std::string& name) {
+        for (const auto& c : e.result({{"command", "item"}, {"item", "system"}})["constants"])
+            if (c["name"] == name) return c;
+        return json();
+    };
+    CHECK(constant("rate")["high"] == 4);
+    CHECK(constant("rate")["value"] == 2);
+    CHECK(constant("half")["formula"] == "{rate / 2}");
+    CHECK(constant("P.own")["value"] == 5);
+    CHECK(e.result({{"command", "item"}, {"item", "p"}})["constants"].size() == 1);
+    e.result({{"command", "set"}, {"assignments", {"rate=3"}}});
+    CHECK(constant("rate")["loaded"] == 2);
+    CHECK(constant("half")["value"] == 1.5);
+    CHECK(constant("half")["loaded"] == "{rate / 2}");
+    e.result({{"command", "set"}, {"assignments", {"half={rate / 4}"}}});
+    CHECK(constant("half")["value"] == 0.75);
+    CHECK(e.ask({{"command", "set"}, {"assignments", {"n=4"}}})["problems"][0]["message"] ==
+          "'n=4': more than parameters depends on this constant");
+
+    const json group = e.result({{"command", "item"}, {"item", "a"}});
+    CHECK(group["parameters"][0]["formula"] == "{rate}");
+    CHECK(group["parameters"][0]["value"] == 3);
+    const json& equations = group["declaration"]["equations"];
+    REQUIRE(equations.size() == 5);
+    CHECK(group["declaration"]["doc"] == "Leaks.");
+    CHECK(equations[0]["text"] == "u = exc - x             # the input");
+    CHECK(equations[1]["computes"] == json{"x"});
+    CHECK(equations[1]["line"] == 8);
+    CHECK(equations[2]["computes"].empty());
+    CHECK(equations[3]["text"] == "when x' < 0: x' = 0, y' = 1");
+    CHECK(equations[3]["computes"] == json{"x", "y"});
+    CHECK(e.result({{"command", "item"}, {"item", "b"}})["declaration"].is_null());
+
+    CHECK(e.last["system"]["connections"][0]["fixed_weights"] == true);
+    CHECK(e.last["system"]["connections"][1]["fixed_weights"] == false);
+    const auto sampled = [&](const char* source) {  // as a page reads it
+        return json::parse(e.result({{"command", "read"}, {"source", source}}).dump());
+    };
+    const json matrix = sampled("sampled(C)");
+    CHECK(matrix["rows"] == 3);
+    CHECK(matrix["values"] == json{1, nullptr, 3, nullptr, nullptr, nullptr, 4, 5, -6});
+    const json large = sampled("sampled(D:weight)");
+    CHECK(large["rows"] == 150);
+    CHECK(large["columns"] == 150);
+    CHECK(large["values"][0] == 1);
+    CHECK(large["values"][1].is_null());
+    CHECK(large["values"][149] == 7);
+    CHECK(sampled("sampled(D)")["values"] == large["values"]);
+    for (const char* wrong : {"sampled(P/A)", "sampled(E)", "sampled(D:none)"})
+        CHECK(e.ask({{"command", "read"}, {"source", wrong}})["ok"] == false);
+}
+
 TEST_CASE("a file whose system cannot run is opened to be corrected") {
     Editor e;
     std::string text = e.content();

@@ -66,6 +66,8 @@ export interface Connection {
   synapses: number;
   form: string;
   states: State[];
+  /** Whether its synapses have weights that stay as the file gives them: the source `sampled(NAME)`. */
+  fixed_weights: boolean;
   line: ConnectionLine | null;
 }
 
@@ -192,7 +194,9 @@ export interface ParameterInfo {
   kind: ParameterKind;
   value: ParameterValue;
   default: ParameterValue;
-  /** The value that the file gives. */
+  /** The formula in braces that gives the value, in a form. */
+  formula?: string;
+  /** The value that the file gives; in a form, its formula. */
   loaded: ParameterValue;
   low: number | null;
   high: number | null;
@@ -252,13 +256,16 @@ export type Port = { name: string; label?: string; doc?: string; optional: boole
 /** `linked`: it is in the file of a linked process. `other_system`: it runs beside the system that is edited. */
 export type Common = { id: string; name: string; color?: string; note?: string; icon?: Icon | null; linked?: boolean; other_system?: boolean; text: string; parameters: ParameterInfo[] };
 export type Feedback = { name: string; label: string; required: boolean; state: string };
-export type GroupItem = Common & { kind: 'group'; process: string; path: string; neuron: string; topology: Topology; cells: number };
+/** A type that the file declares: its equations, each with its line in the file and the names of what it computes. */
+export type Declaration = { doc: string; equations: { text: string; line: number; computes: string[] }[] };
+export type GroupItem = Common & { kind: 'group'; process: string; path: string; neuron: string; topology: Topology; cells: number; declaration: Declaration | null };
 export interface ConnectionItem extends Common {
   kind: 'connection';
   source: string;
   target: string;
   sign: ConnectionKind;
   synapse: string;
+  declaration: Declaration | null;
   pattern: Pattern | null;
   arborization: Typed | null;
   attenuation: Typed | null;
@@ -268,8 +275,8 @@ export interface ConnectionItem extends Common {
   states?: string[];
   synapses: number;
 }
-export type ProcessItem = Common & { kind: 'process'; path: string; enabled: boolean; module: string | null; inputs: Port[]; outputs: Port[] };
-export type SystemItem = Common & { kind: 'system'; author: string; date: string; port: string; sync_plots: boolean; cycles_per_second: number };
+export type ProcessItem = Common & { kind: 'process'; path: string; enabled: boolean; module: string | null; inputs: Port[]; outputs: Port[]; constants: ParameterInfo[] };
+export type SystemItem = Common & { kind: 'system'; author: string; date: string; port: string; sync_plots: boolean; cycles_per_second: number; constants: ParameterInfo[] };
 export type CommentItem = Common & { kind: 'comment'; content: string; width: number; height: number };
 export type EditItem = GroupItem | ConnectionItem | ProcessItem | SystemItem | CommentItem;
 
