@@ -80,6 +80,9 @@ export class Lattice {
   }
 }
 
+/** How many cells of a group are one row or column of a matrix of weights, which has at most 256. */
+export const cellsPerBlock = (cells: number): number => Math.ceil(cells / 256);
+
 /** A part of a lattice, which has places of its own. */
 export class View {
   constructor(private readonly all: number, readonly x: number, readonly y: number, readonly columns: number, readonly rows: number) {}

@@ -2,7 +2,7 @@
 import type { PageLine } from '../panels/diagram';
 import { dock } from '../stores/dock.svelte';
 import { frame } from '../stores/frame.svelte';
-import { model } from '../stores/model.svelte';
+import { model, weightStates } from '../stores/model.svelte';
 import { selection } from '../stores/selection.svelte';
 import { copy, cut, withConnections } from './clipboard';
 import { fileDialog } from './file.svelte';
@@ -53,8 +53,8 @@ function itemMenu(id: string): Entries {
       plots.push({ label: 'Time plot', act: () => dock.plot({ kind: 'time', sources: groups.map((g) => `mean(${g})`) }) });
     }
     if (connections.length) plots.push({ label: 'Wiring plots', act: () => connections.forEach((c) => dock.plot({ kind: 'wiring', item: model.nameFor(c) })) });
-    const weighed = connections.filter((c) => c.states.length);
-    if (weighed.length) plots.push({ label: 'Weights', act: () => weighed.forEach((c) => dock.plot({ kind: 'weights', item: model.nameFor(c), state: c.states[0]!.name })) });
+    const weighed = connections.filter((c) => weightStates(c).length);
+    if (weighed.length) plots.push({ label: 'Weights', act: () => weighed.forEach((c) => dock.plot({ kind: 'weights', item: model.nameFor(c), state: weightStates(c)[0]!.name })) });
     return plots.length ? [...plots, ...editEntries] : editEntries.slice(1);
   }
   if (item.kind === 'comment') return [{ label: 'Write', keys: 'Enter', act: () => rename(id) }, { label: 'Properties', act: () => properties(id) }, ...editEntries];
@@ -69,7 +69,7 @@ function itemMenu(id: string): Entries {
     first.push({ label: 'Show its groups', act: () => (selection.process = id) }, { label: 'Export…', act: () => fileDialog.open('export', id) });
   } else {
     first.push(null, { label: 'Wiring', act: () => dock.plot({ kind: 'wiring', item: model.nameFor(item.connection) }) });
-    for (const s of item.connection.states) first.push({ label: s.label, act: () => dock.plot({ kind: 'weights', item: model.nameFor(item.connection), state: s.name }) });
+    for (const s of weightStates(item.connection)) first.push({ label: s.label, act: () => dock.plot({ kind: 'weights', item: model.nameFor(item.connection), state: s.name }) });
   }
   return [...first, ...editEntries];
 }

@@ -28,7 +28,7 @@ export class PlotColours {
   private chosen = $state.raw<MapName>();
   private readonly keep: PanelProps['keep'];
 
-  /** `signed`: values below 0 get the diverging map unless the user chose one. */
+  /** `signed`: values below 0 get the diverging map, with 0 in its middle, unless the user chose others. */
   constructor(props: () => Kept, scale?: Scale, private readonly signed = false) {
     const { panel, keep } = props();
     this.scale = (panel.scale as Scale | undefined) ?? scale ?? this.scale;
@@ -45,7 +45,10 @@ export class PlotColours {
   /** Lets the scale follow values, as its mode says. */
   follow(...values: ArrayLike<number>[]): void {
     const ends = values.map(extent);
-    this.scale = adapt(this.scale, Math.min(...ends.map((e) => e[0])), Math.max(...ends.map((e) => e[1])));
+    const { mode, low, high } = adapt(this.scale, Math.min(...ends.map((e) => e[0])), Math.max(...ends.map((e) => e[1])));
+    const limit = this.signed && mode === 'auto' && low < 0 ? Math.max(-low, high) : null;
+    const next = limit === null ? { mode, low, high } : { mode, low: -limit, high: limit };
+    if (next.low !== this.scale.low || next.high !== this.scale.high) this.scale = next;
   }
   rescale(scale: Scale): void {
     this.scale = scale;

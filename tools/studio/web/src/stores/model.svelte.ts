@@ -1,5 +1,5 @@
 // The system and the world as the server describes them. Only messages of the server change them.
-import type { CanvasComment, Connection, Group, Process, SystemMessage, WorldMessage } from '../protocol/messages';
+import type { CanvasComment, Connection, Group, Process, State, SystemMessage, WorldMessage } from '../protocol/messages';
 
 export type Item =
   | { kind: 'process'; process: Process }
@@ -52,6 +52,11 @@ class Model {
 }
 
 export const model = new Model();
+
+/** What a plot of weights shows of a connection: the states of its synapses, or the weights of the file. */
+export const weightStates = (c: Connection): State[] => (c.states.length || !c.fixed_weights ? c.states : [{ name: '', label: 'Weight' }]);
+/** The source of such a plot. Large matrices come as the means of blocks. */
+export const weightSource = (c: Connection, state: string): string => `sampled(${model.nameFor(c)}${state ? `:${state}` : ''})`;
 
 /** The state of a group that plots show unless another one is chosen. */
 export const outputState = (group: Group): string => (group.states.find((s) => s.output) ?? group.states[0])?.name ?? 'act';
