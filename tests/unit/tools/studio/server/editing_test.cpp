@@ -269,7 +269,8 @@ TEST_CASE("forms have the constants, equations and weights that the file declare
     REQUIRE(e.last["document"]["running_is_current"] == true);
 
     const auto constant = [&](const std::string& name) {
-        for (const auto& c : e.result({{"command", "item"}, {"item", "system"}})["constants"])
+        const json form = e.result({{"command", "item"}, {"item", "system"}});
+        for (const auto& c : form["constants"])
             if (c["name"] == name) return c;
         return json();
     };
