@@ -21,7 +21,20 @@ const group = (id: string, x: number | null, y = 0): Group => ({
   places: null,
   states: [],
 });
-const connection = (id: string, source: string, target: string, line: Connection['line'] = null): Connection => ({ id, name: id, source, target, kind: 'excitatory', type: '', note: '', synapses: 1, form: '', states: [], fixed_weights: false, line });
+const connection = (id: string, source: string, target: string, line: Connection['line'] = null): Connection => ({
+  id,
+  name: id,
+  source,
+  target,
+  kind: 'excitatory',
+  type: '',
+  note: '',
+  synapses: 1,
+  form: '',
+  states: [],
+  fixed_weights: false,
+  line,
+});
 const line = (more: Partial<ConnectionLine>): ConnectionLine => ({ source_anchor: 1, target_anchor: 1, vertices: [], source_vertices: [], target_vertices: [], ...more });
 const system = (groups: Group[][], connections: Connection[]): SystemMessage => ({
   type: 'system',
