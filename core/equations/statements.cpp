@@ -12,6 +12,7 @@ namespace forage::equations {
 namespace {
 
 constexpr std::string_view blanks = " \t\r\n";
+constexpr std::string_view operators = "+-*/^";
 
 bool in_name(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -63,9 +64,9 @@ constexpr std::array<std::string_view, 3> keywords = {"when", "output", "input"}
 /// A hint for the left side of an equation that is no name.
 std::string hint_for_left_side(std::string_view left) {
     const std::string_view name = word_of(left);
-    if (left.ends_with("''") || (left.starts_with('d') && left.find('/') != left.npos))
+    if (left.ends_with('\'') || (left.starts_with('d') && left.find('/') != left.npos))
         return "a derivative is written dx/dt; a second one takes two equations: dx/dt = v and dv/dt = ...";
-    if (!left.empty() && std::string_view("+-*/").find(left.back()) != left.npos)
+    if (!left.empty() && operators.find(left.back()) != left.npos)
         return fmt::format("write {0}' = {0} {1} ...", name, left.back());
     if (left.find("when") != left.npos) return "when v' >= 1: v' = 0";
     return "the left side is a name: letters, digits and _, no word of the formulas";
@@ -76,6 +77,7 @@ constexpr const char* forms =
 
 /// A hint for a line that is no equation.
 std::string hint_for_line(std::string_view line) {
+    if (operators.find(line.front()) != operators.npos) return "a line continues while a parenthesis is open";
     for (const auto keyword : keywords)
         if (nearest(word_of(line), std::array{std::string(keyword)}) == keyword)
             return fmt::format("did you mean '{}'?", keyword);
@@ -91,7 +93,14 @@ class Reader {
         for (std::size_t at = 0; (at = without_remarks.find('#', at)) != std::string::npos;)
             for (; at < without_remarks.size() && without_remarks[at] != '\n'; ++at)
                 without_remarks[at] = ' ';
+        bool open_end = false;
         for (const Piece& line : divided({without_remarks, 0}, [](char c) { return c == '\n'; })) {
+            // What follows a line that ends in an operator belongs to its mistake.
+            const bool continues =
+                std::exchange(open_end, operators.find(line.text.back()) != operators.npos);
+            if (continues && assignment_in(line.text) == std::string_view::npos &&
+                !begins_with_keyword(line.text))
+                continue;
             bool after_when = false;
             for (const Piece& each : divided(line, [](char c) { return c == ';'; })) {
                 try {

@@ -29,14 +29,15 @@ bool same_file(const std::string& a, const std::string& b) {
 
 class Linker {
   public:
-    Linker(model::System& system, const Use* use, Diagnostics& out) : system_(system), use_(use), out_(out) {}
+    Linker(model::System& system, bool is_part, const Use* use, Diagnostics& out)
+        : system_(system), is_part_(is_part), use_(use), out_(out) {}
 
     bool run() {
         auto places = std::exchange(system_.processes, {});
         bool complete = true;
         for (std::size_t i = 0; i < places.size(); ++i) {
             model::Process& place = places[i];
-            if (!place.path.empty() && use_ && i == 0) {
+            if (!place.path.empty() && is_part_ && i == 0) {
                 out_.error(place.path_at, "the process of a process file is linked itself",
                            "a linked process cannot lead to another file: empty 'path'");
             } else if (!place.path.empty()) {
@@ -46,7 +47,7 @@ class Linker {
                     take_over(place, *std::move(content));
                     continue;
                 }
-            } else if (use_ && i > 0) {
+            } else if (is_part_ && i > 0) {
                 out_.error(place.at, "a process file has one process, and others only by their files",
                            "give this one a 'path', or a file of its own");
             }
@@ -187,7 +188,7 @@ class Linker {
             if (p.linked() || p.ports.empty()) continue;
             std::vector<std::string> groups;
             for (const auto& other : system_.processes)
-                if (use_ || &other == &p)
+                if (is_part_ || &other == &p)
                     for (const auto& g : other.groups) groups.push_back(g.id);
             std::set<std::string_view> names;
             for (const auto& port : p.ports) {
@@ -205,14 +206,15 @@ class Linker {
     }
 
     model::System& system_;
+    bool is_part_;
     const Use* use_;
     Diagnostics& out_;
 };
 
 }  // namespace
 
-bool link(model::System& system, const Use* use, Diagnostics& diagnostics) {
-    return Linker(system, use, diagnostics).run();
+bool link(model::System& system, bool is_part, const Use* use, Diagnostics& diagnostics) {
+    return Linker(system, is_part, use, diagnostics).run();
 }
 
 }  // namespace forage::xml

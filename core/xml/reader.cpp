@@ -335,7 +335,7 @@ auto build(const Document* document, const Format& format, Diagnostics& diagnost
 std::optional<model::System> build_system(const Document* document, Diagnostics& diagnostics) {
     auto out = build(document, system_format(), diagnostics, [&](const Document& d) {
         model::System system = Reader(d, diagnostics).system();
-        link(system, nullptr, diagnostics);
+        link(system, false, nullptr, diagnostics);
         return system;
     });
     if (out && !model::compute(*out, diagnostics)) out.reset();
@@ -364,7 +364,7 @@ std::optional<model::System> read_part(const std::string& path, const Use* use, 
     auto out = build(open(path, process_format(), diagnostics, used).get(), process_format(), diagnostics,
                      [&](const Document& d) {
                          model::System content = Reader(d, diagnostics).part();
-                         complete = link(content, use, diagnostics);
+                         complete = link(content, true, use, diagnostics);
                          return content;
                      });
     return complete ? std::move(out) : std::nullopt;

@@ -128,6 +128,8 @@ TEST_CASE("mistakes are reported at their places, and nothing that follows from 
     CHECK(said("x' = exc") == Mistakes{"0: the equations name no output"});
     CHECK(said("output x = 1; output y = 2") == Mistakes{"21: 'x' is the output already"});
     CHECK(said("exc; output x = 1") == Mistakes{"0: this is no equation"});
+    CHECK(said("x = exc +\n3 * inh\noutput x") == Mistakes{"9: something is missing at its end"});
+    CHECK(said("v'' = exc; output x = 1").size() == 1);
     CHECK(said("when exc > 1 x' = 2; x' = 1; output x").size() == 1);
     CHECK(said("when exc > 1: dx/dt = 2; output x = 1").size() == 1);
     CHECK(said("output x = (1 + 2") == Mistakes{"11: this '(' is not closed"});

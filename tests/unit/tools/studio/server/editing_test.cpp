@@ -571,7 +571,7 @@ TEST_CASE("the vocabulary has every element of the check, and names what its tex
         return *it;
     };
     const json group = element("Group");
-    CHECK(group["children"][0] == json{{"name", "Topology"}, {"several", false}, {"required", true}});
+    CHECK(group["children"][0] == json{{"name", "Topology"}, {"several", false}, {"required", false}});
     CHECK(element("Topology")["choose"] == 1);
     CHECK(element("Note")["text"] == true);
     const json width = element("TopologyRect")["attributes"][0];
