@@ -346,7 +346,7 @@ std::vector<EquationLine> lines(const model::TypeDeclaration& type) {
         end = std::min(text.find('\n', begin), text.size());
         const auto written = model::trim(std::string_view(text).substr(begin, end - begin));
         if (written.empty()) continue;
-        auto& line = out.emplace_back(std::string(written), place(type, begin).line);
+        auto& line = out.emplace_back(EquationLine{std::string(written), place(type, begin).line, {}});
         for (const auto& s : statements)
             if (s.at >= begin && s.at < end &&
                 std::ranges::find(line.computes, s.name) == line.computes.end())
