@@ -8,13 +8,12 @@
 namespace forage::model {
 namespace {
 
-/// Calls f(name, group) with the ports of linked processes until it returns true.
+/// Calls f(name, group) with the ports of linked processes.
 template <class F>
 void each_port(const System& system, F f) {
     for (const auto& p : system.processes)
         if (p.linked() && p.within.empty())
-            for (const auto& port : p.ports)
-                if (f(p.id + "." + port.name, port.group)) return;
+            for (const auto& port : p.ports) f(p.id + "." + port.name, port.group);
 }
 
 }  // namespace
@@ -43,30 +42,21 @@ void give(Process& place, const Constant& constant) {
     it->name = constant.name, it->value = constant.value;
 }
 
-std::vector<std::string> port_names(const System& system) {
-    std::vector<std::string> out;
-    each_port(system, [&](std::string name, const std::string&) {
-        out.push_back(std::move(name));
-        return false;
-    });
+Names groups_by_port(const System& system) {
+    Names out;
+    each_port(system, [&](const std::string& name, const std::string& group) { out.emplace(name, group); });
     return out;
 }
 
-std::string group_behind(const System& system, std::string_view wanted) {
-    std::string out;
-    each_port(system, [&](const std::string& name, const std::string& group) {
-        if (name == wanted) out = group;
-        return name == wanted;
-    });
+Names ports_by_group(const System& system) {
+    Names out;
+    each_port(system, [&](const std::string& name, const std::string& group) { out.emplace(group, name); });
     return out;
 }
 
-Connection through_ports(const System& system, Connection c) {
+Connection renamed(const Names& names, Connection c) {
     for (auto* end : {&c.source, &c.target})
-        each_port(system, [&, wanted = *end](const std::string& name, const std::string& group) {
-            if (group == wanted) *end = name;
-            return group == wanted;
-        });
+        if (const auto it = names.find(*end); it != names.end()) *end = it->second;
     return c;
 }
 

@@ -2,9 +2,9 @@
 // begin with the id of the process that uses the file: the group `stn` of the process `left` is `left.stn`.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <string>
-#include <string_view>
-#include <vector>
 
 #include "core/model/system.h"
 
@@ -20,13 +20,15 @@ void name_use(System& content, const Process& place);
 /// Writes the value of a constant of a linked process where the process is used.
 void give(Process& place, const Constant& constant);
 
-/// The ports of linked processes, as connections name them: "process.port".
-std::vector<std::string> port_names(const System& system);
+/// Names by names.
+using Names = std::map<std::string, std::string, std::less<>>;
 
-/// The id of the group behind a port of a linked process, "process.port"; empty when there is none.
-std::string group_behind(const System& system, std::string_view port);
-
-/// A connection as its file has it: with ports in place of the groups of linked processes.
-Connection through_ports(const System& system, Connection connection);
+/// The ids of the groups behind the ports of linked processes, by what connections call the port:
+/// "process.port".
+Names groups_by_port(const System& system);
+/// What connections call the first port of each such group, by the id of the group.
+Names ports_by_group(const System& system);
+/// A connection whose ends are renamed where `names` has them.
+Connection renamed(const Names& names, Connection connection);
 
 }  // namespace forage::model

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -22,6 +23,11 @@ std::string some_of(const std::vector<std::string>& ids) {
                        ids.size() > shown ? fmt::format(" and {} more", ids.size() - shown) : "");
 }
 
+// A few small files could use each other a billion times.
+constexpr int max_depth = 64;                            ///< of parts in parts
+constexpr std::size_t max_read = std::size_t{64} << 20;  ///< bytes of files, counted at each use
+constexpr std::size_t least_size = 4096;                 ///< that a use counts, bytes
+
 bool same_file(const std::string& a, const std::string& b) {
     std::error_code ignored;
     return std::filesystem::equivalent(a, b, ignored);
@@ -30,7 +36,7 @@ bool same_file(const std::string& a, const std::string& b) {
 class Linker {
   public:
     Linker(model::System& system, bool is_part, const Use* use, Diagnostics& out)
-        : system_(system), is_part_(is_part), use_(use), out_(out) {}
+        : system_(system), is_part_(is_part), use_(use), read_(use ? use->read : own_read_), out_(out) {}
 
     bool run() {
         auto places = std::exchange(system_.processes, {});
@@ -71,12 +77,27 @@ class Linker {
                             file));
             return {};
         }
-        const Use use{place.path_at, use_};
+        const Use use{place.path_at, use_, read_};
+        int depth = 0;
         for (const Use* u = &use; u; u = u->outer)
-            if (same_file(u->at.file->path, file)) {
-                out_.error(place.path_at, fmt::format("'{}' would contain itself", place.path));
+            if (same_file(u->at.file->path, file) || ++depth > max_depth) {
+                out_.error(place.path_at,
+                           depth > max_depth
+                               ? fmt::format("parts use each other more than {} deep", max_depth)
+                               : fmt::format("'{}' would contain itself", place.path));
                 return {};
             }
+        const bool was_full = read_ > max_read;
+        read_ += std::max<std::size_t>(std::filesystem::file_size(file, ignored), least_size);
+        if (read_ > max_read) {
+            if (!was_full)
+                out_.error(
+                    place.path_at,
+                    fmt::format("the process files that this system uses have more than {} MB, counted "
+                                "at each use",
+                                max_read >> 20));
+            return {};
+        }
         const bool failed = std::ranges::any_of(out_.all(), [&](const Diagnostic& d) {
             return d.severity == Severity::error && d.where.file && d.where.file->path == file;
         });
@@ -90,24 +111,24 @@ class Linker {
     /// Reports a file without ports that two processes link, whose ids would not be unique. Returns whether
     /// it did.
     bool is_second_link(const model::Process& place, const model::Process& own, const std::string& file) {
-        for (const auto& first : system_.processes) {
-            if (!first.linked() || !same_file(model::resolved(first.path, first.path_at), file)) continue;
-            std::vector<std::string> ids;
-            for (const auto& g : first.groups) ids.push_back(g.id);
-            for (const auto& c : system_.connections)
-                if (c.linked && c.at.file && own.at.file && c.at.file->path == own.at.file->path)
-                    ids.push_back(c.id);
-            out_.error(
-                place.path_at,
-                fmt::format("process '{}' is linked to '{}', as process '{}' on line {} is: the ids {} "
-                            "would occur twice",
-                            model::trim(place.name), place.path, model::trim(first.name), first.path_at.line,
-                            some_of(ids)),
-                "a file with a <Port name=\"...\" group=\"...\"/> may be used any number of times: each use "
-                "has ids of its own");
-            return true;
-        }
-        return false;
+        const auto [it, fresh] =
+            plain_.emplace(std::filesystem::canonical(file).string(), system_.processes.size());
+        if (fresh) return false;
+        const auto& first = system_.processes[it->second];
+        std::vector<std::string> ids;
+        for (const auto& g : first.groups) ids.push_back(g.id);
+        for (const auto& c : system_.connections)
+            if (c.linked && c.at.file && own.at.file && c.at.file->path == own.at.file->path)
+                ids.push_back(c.id);
+        out_.error(
+            place.path_at,
+            fmt::format("process '{}' is linked to '{}', as process '{}' on line {} is: the ids {} "
+                        "would occur twice",
+                        model::trim(place.name), place.path, model::trim(first.name), first.path_at.line,
+                        some_of(ids)),
+            "a file with a <Port name=\"...\" group=\"...\"/> may be used any number of times: each use "
+            "has ids of its own");
+        return true;
     }
 
     /// Puts the content of a file in the place of the process that uses it.
@@ -164,16 +185,19 @@ class Linker {
 
     /// Gives connections, and ports of this file, the groups behind the ports of linked processes.
     void enter_ports() {
+        const auto ports = model::groups_by_port(system_);
+        std::map<std::string_view, const model::Process*> inside;  // groups of parts
+        std::vector<std::string> names;
+        for (const auto& [name, group] : ports) names.push_back(name);
+        for (const auto& p : system_.processes)
+            if (p.linked() && !p.ports.empty())
+                for (const auto& g : p.groups) inside.emplace(g.id, &p);
         const auto enter = [&](std::string& end, const Location& at) {
-            if (auto group = model::group_behind(system_, end); !group.empty()) {
-                end = std::move(group);
-                return;
-            }
-            for (const auto& p : system_.processes)
-                if (p.linked() && !p.ports.empty() &&
-                    std::ranges::find(p.groups, end, &model::Group::id) != p.groups.end())
-                    out_.error(at, fmt::format("'{}' is no port of '{}'", end, p.path),
-                               suggest(end, model::port_names(system_)));
+            if (const auto port = ports.find(end); port != ports.end())
+                end = port->second;
+            else if (const auto group = inside.find(end); group != inside.end())
+                out_.error(at, fmt::format("'{}' is no port of '{}'", end, group->second->path),
+                           suggest(end, names));
         };
         for (auto& c : system_.connections)
             if (!c.linked) enter(c.source, c.source_at), enter(c.target, c.target_at);
@@ -208,6 +232,8 @@ class Linker {
     model::System& system_;
     bool is_part_;
     const Use* use_;
+    std::size_t own_read_ = 0, &read_;
+    std::map<std::string, std::size_t> plain_;  ///< processes of files without ports, by canonical path
     Diagnostics& out_;
 };
 

@@ -1,6 +1,7 @@
 // Processes whose content is in files of their own.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -12,6 +13,7 @@ namespace forage::xml {
 struct Use {
     const Location& at;
     const Use* outer;
+    std::size_t& read;  ///< bytes of all files that were used so far
 };
 
 /// Replaces the processes of a file that link others by the content of these files: at most once a file

@@ -23,8 +23,9 @@ class Writer : Printer {
         note(s.note);
         for (const auto& p : s.processes)
             if (p.within.empty()) process(p.linked() ? p.placeholder.front() : p);
+        const auto ports = model::ports_by_group(s);
         for (const auto& c : s.connections)
-            if (!c.linked) connection(model::through_ports(s, c));
+            if (!c.linked) connection(model::renamed(ports, c));
         for (const auto& c : s.canvas_comments) comment(write_canvas_part(c));
         close();
     }

@@ -198,6 +198,33 @@ TEST_CASE("a file without ports is linked once, and a type has one meaning") {
                                              (parts.folder.path / "half.iqrProcess").string())});
 }
 
+TEST_CASE("parts that use each other without end are refused") {
+    Parts parts;
+    const auto part = [](int uses, const std::string& file) {
+        std::string out =
+            "<iqrEntity type=\"Process\"><Process id=\"p\" name=\"P\"><Port name=\"in\" group=\"a\"/>"
+            "<Group id=\"a\" name=\"A\"><Neuron name=\"neuronLinearThreshold\"/></Group></Process>";
+        for (int i = 0; i < uses; ++i)
+            out += fmt::format("<Process id=\"u{0}\" name=\"U{0}\" path=\"{1}\"/>", i, file);
+        return out + "</iqrEntity>";
+    };
+    const std::string first =
+        R"(<System id="s" name="S"><Process id="x" name="X" path="0.iqrProcess"/></System>)";
+    const auto write = [&](int files, int uses) {
+        for (int i = 0; i < files; ++i)
+            parts.folder.write(fmt::format("{}.iqrProcess", i),
+                               part(i + 1 < files ? uses : 0, fmt::format("{}.iqrProcess", i + 1)));
+    };
+    write(6, 20);  // 3,200,000 uses of the last one
+    CHECK(parts.mistakes(first) ==
+          std::vector<std::string>{
+              "1: the process files that this system uses have more than 64 MB, counted at each use"});
+    write(64, 1);
+    CHECK(parts.mistakes(first).empty());
+    write(65, 1);
+    CHECK(parts.mistakes(first) == std::vector<std::string>{"1: parts use each other more than 64 deep"});
+}
+
 TEST_CASE("an extracted process has its types, and ports for the connections that left it") {
     Parts parts;
     const auto s = parts.read(R"(<System id="s" name="S"><Constant name="n" value="2"/>
