@@ -322,8 +322,11 @@ json describe_constants(const model::System& system, const model::System& saved,
     json out = json::array();
     for (const auto& name : model::constant_names(system)) {
         const auto* c = model::find_constant(system, name);
-        if (process && std::ranges::none_of(process->constants, [&](const auto& own) { return &own == c; }))
-            continue;
+        const auto owner = std::ranges::find_if(system.processes, [&](const model::Process& p) {
+            return std::ranges::any_of(p.constants, [&](const auto& own) { return &own == c; });
+        });
+        if (process && (owner == system.processes.end() || &*owner != process)) continue;
+        if (owner != system.processes.end() && !owner->within.empty()) continue;  // the part's file has them
         const auto* before = model::find_constant(saved, name);
         const auto number = in_force(name);
         Parameter p;

@@ -29,7 +29,8 @@ nlohmann::json describe_types(const Registry& registry);
 /// A type that a system declares: what it means, and its equations line by line.
 nlohmann::json describe_declaration(const model::TypeDeclaration& type);
 /// The constants of a process, or of the system and all processes when it is null, as describe_settings()
-/// describes parameters. `saved` is the saved file.
+/// describes parameters, but for those of parts in parts, which are edited in the file of the part. `saved`
+/// is the saved file.
 nlohmann::json describe_constants(const model::System& system, const model::System& saved,
                                   const model::Process* process);
 /// What may stand in a system file: its elements with their attributes and values, from the tables of which
