@@ -59,7 +59,7 @@ class Matrix : public StreamSource {
     Side sources_, targets_;
 };
 
-/// A state of the synapses, as it is now.
+/// The present values of a state of the synapses.
 class States final : public Matrix {
   public:
     States(const engine::Layout& layout, observe::Source mean)
