@@ -122,30 +122,6 @@ void flush_to_disk(const std::string& path) {
     flush_directory(path);
 }
 
-namespace {
-
-constexpr std::uint64_t no_text = 0xcbf29ce484222325u;
-std::uint64_t hashed(std::uint64_t hash, std::string_view text) {
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    return hash;
-}
-
-}  // namespace
-
-std::string digest(std::string_view text) { return fmt::format("{:016x}", hashed(no_text, text)); }
-
-std::string file_digest(const std::string& path) {
-    std::error_code none;  // the content of a pipe cannot be read again
-    if (!std::filesystem::is_regular_file(path, none)) return digest({});
-    std::ifstream in(path, std::ios::binary);
-    std::uint64_t hash = no_text;
-    for (std::vector<char> block(std::size_t{1} << 18); in;) {
-        in.read(block.data(), static_cast<std::streamsize>(block.size()));
-        hash = hashed(hash, {block.data(), static_cast<std::size_t>(in.gcount())});
-    }
-    return fmt::format("{:016x}", hash);
-}
-
 void make_directory(const std::string& path) {
     std::error_code error;
     std::filesystem::create_directories(path, error);

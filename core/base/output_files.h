@@ -32,10 +32,6 @@ void write_result(const std::string& path, std::string_view text);
 void write_durably(const std::string& path, std::string_view text, const std::string& keep = {});
 /// Makes sure that the content and the name of a file survive a power cut. Throws std::runtime_error.
 void flush_to_disk(const std::string& path);
-/// The 64-bit FNV-1a digest of a text in hexadecimal digits, which shows whether the text has changed.
-std::string digest(std::string_view text);
-/// The digest of a file's content; that of an empty text when there is no such file.
-std::string file_digest(const std::string& path);
 /// Creates a directory and its parents. Throws std::runtime_error, also when the directory exists and is not
 /// writable.
 void make_directory(const std::string& path);

@@ -11,7 +11,7 @@
 
 #include "core/base/table.h"
 #include "core/observe/hdf5_recording.h"
-#include "core/observe/npz.h"
+#include "core/observe/zip_file.h"
 
 namespace forage::observe {
 namespace {
@@ -191,10 +191,13 @@ std::vector<std::unique_ptr<Recording>> open_npz(const std::string& path) {
     };
     const std::unique_ptr<std::string, decltype(remove)> remover(&folder, remove);
     try {
-        const NpzArchive archive(path);
-        for (std::size_t i = 0; i < archive.names().size(); ++i) {
-            archive.extract(i, folder + "/array.npy");
-            out.push_back(std::make_unique<NpyRecording>(folder + "/array.npy", path, archive.names()[i]));
+        const ZipFile archive(path);
+        for (const auto& entry : archive.entries()) {
+            const fs::path name = entry.name;
+            if (name.extension() != ".npy") continue;
+            archive.extract(entry, folder + "/array.npy");
+            out.push_back(std::make_unique<NpyRecording>(folder + "/array.npy", path,
+                                                         entry.name.substr(0, entry.name.size() - 4)));
             fs::remove(folder + "/array.npy");
         }
     } catch (const FileError&) {

@@ -11,7 +11,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "core/base/output_files.h"
+#include "core/base/digest.h"
 #include "core/base/text_file.h"
 
 namespace forage::plugin {

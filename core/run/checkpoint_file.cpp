@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "core/base/archive.h"
+#include "core/base/digest.h"
 #include "core/base/output_files.h"
 
 namespace forage {

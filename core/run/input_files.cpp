@@ -9,7 +9,7 @@ namespace forage {
 namespace {
 
 void add(InputFiles& all, const Location& where) {
-    if (where.file) all[where.file->path] = digest(where.file->text);
+    if (where.file) all[where.file->path] = sha256(where.file->text);
 }
 
 }  // namespace

@@ -5,15 +5,17 @@
 #include <string>
 #include <vector>
 
-#include "core/base/output_files.h"
+#include "core/base/digest.h"
 #include "core/model/edit.h"
 #include "core/model/system.h"
 #include "core/types/registry.h"
 
 namespace forage {
 
-/// Digests of files by path.
+/// SHA-256 digests of files by path.
 using InputFiles = std::map<std::string, std::string>;
+/// Contents of files by path.
+using FileTexts = std::map<std::string, std::string>;
 
 /// The files of a system: its own, those of linked processes, and those of arrays.
 InputFiles system_files(const model::System& system);

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/digest.h"
 #include "core/base/output_files.h"
 #include "core/engine/adopt.h"
 #include "core/model/constants.h"

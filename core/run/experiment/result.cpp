@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "core/base/digest.h"
 #include "core/base/output_files.h"
 #include "core/run/experiment/result_json.h"
 #include "core/run/input_files.h"

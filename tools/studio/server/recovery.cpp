@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 
+#include "core/base/digest.h"
 #include "core/run/checkpoint_file.h"
 
 namespace forage::studio {
