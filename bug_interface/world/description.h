@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -153,9 +154,10 @@ struct TrialRules {
 /// Everything in a world file that Forage uses.
 struct WorldDescription {
     std::string path;
-    double step = 0.001;        ///< physics step, s
-    double update_rate = 1000;  ///< physics steps per second of wall-clock time, as given in the file
-    float ambient = 0.4f;       ///< ambient light, 0..1
+    std::set<std::string> files;  ///< what it includes: models, their configurations, scripts, pictures
+    double step = 0.001;          ///< physics step, s
+    double update_rate = 1000;    ///< physics steps per second of wall-clock time, as given in the file
+    float ambient = 0.4f;         ///< ambient light, 0..1
     std::optional<Eigen::Vector3d> sun;  ///< unit vector towards a directional light
     std::vector<Model> models;
     std::optional<GameRules> game;     ///< the rules in the plugin libforage_game.so

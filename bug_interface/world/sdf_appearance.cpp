@@ -28,8 +28,10 @@ std::string texture_of(SdfSource& in, const xml::Element& script, const std::str
         std::error_code ignored;
         for (fs::directory_iterator entry(place, ignored), end; !ignored && entry != end;
              entry.increment(ignored))
-            if (entry->path().extension() == ".material" && image.empty())
+            if (entry->path().extension() == ".material" && image.empty()) {
                 image = texture_in_script(read_text(entry->path()).value_or(""), name);
+                if (!image.empty()) in.included.insert(entry->path().string());
+            }
     }
     if (image.empty()) {
         in.diagnostics.error(script.where(),
@@ -42,6 +44,7 @@ std::string texture_of(SdfSource& in, const xml::Element& script, const std::str
         if (const std::string problem = png_problem(file); !problem.empty())
             in.diagnostics.error(script.where(),
                                  fmt::format("the texture '{}' is not a PNG picture: {}", file, problem));
+        in.included.insert(file);
         return file;
     }
     in.diagnostics.error(script.where(), fmt::format("the texture '{}' of material '{}' is missing in '{}'",

@@ -40,6 +40,7 @@ class Reader {
                     fmt::format("this <{}> is not in <world>: it has no effect", outside.name()));
         WorldDescription world = read_world_element(world_element);
         if (diagnostics_.errors() > errors_before) return {};
+        world.files = std::move(in_.included);
         return world;
     }
 
@@ -81,6 +82,7 @@ class Reader {
         }
         const xml::Element root = in_.open(file);
         if (!root) return {};
+        in_.included.insert(file);
         if (const auto inside = root.children(); inside.size() > 1)
             diagnostics_.warning(inside[1].where(),
                                  "the included file holds several models; the first one is used");
@@ -120,6 +122,9 @@ class Reader {
             return {};
         }
         if (!fs::is_directory(found)) return found;
+        for (const char* config : {"model.config", "manifest.xml"})
+            if (const fs::path path = fs::path(found) / config; fs::exists(path))
+                in_.included.insert(path.string());
         return file_of_model(found, where, diagnostics_).value_or("");
     }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,6 +36,7 @@ class SdfSource {
 
     Diagnostics& diagnostics;
     ModelFolders folders;
+    std::set<std::string> included;  ///< paths of the files that were read besides the world's own
 
   private:
     xml::Element checked(std::unique_ptr<const xml::Document> document, int errors_before);

@@ -40,21 +40,6 @@ std::optional<DriveTable> read_table(const std::string& path, Diagnostics& diagn
     }
 }
 
-void add(InputFiles& all, const Location& where) {
-    if (where.file) all[where.file->path] = digest(where.file->text);
-}
-
-void add(InputFiles& all, const bug::Model& model) {
-    add(all, model.where);
-    for (const auto& link : model.links) {
-        add(all, link.where);
-        for (const auto& v : link.visuals)
-            if (const auto& picture = v.material.texture; !picture.empty() && !all.contains(picture))
-                all[picture] = file_digest(picture);
-    }
-    for (const auto& inner : model.models) add(all, inner);
-}
-
 InputFiles files_of_system(const Sources& sources) {
     InputFiles out = system_files(*sources.system);
     for (const auto& p : sources.plugins)
@@ -65,7 +50,7 @@ InputFiles files_of_system(const Sources& sources) {
 /// The files that a world includes.
 InputFiles files_of_world(const Sources& sources) {
     InputFiles out;
-    for (const auto& m : sources.world->models) add(out, m);
+    for (const auto& path : sources.world->files) out[path] = file_digest(path);
     return out;
 }
 
@@ -249,6 +234,16 @@ std::vector<std::string> untrusted_folders(const RunInput& input) {
         if (const auto folder = plugin::folder_of(file.path); !file.named && !plugin::is_trusted(folder))
             out.insert(folder);
     return {out.begin(), out.end()};
+}
+
+bool check_trusted(const std::vector<std::string>& plugins, Diagnostics& diagnostics) {
+    for (const auto& path : plugins) {
+        const std::string folder = std::filesystem::is_directory(path) ? path : plugin::folder_of(path);
+        if (!plugin::is_trusted(folder))
+            diagnostics.error({}, fmt::format("the plugins in '{}' are not trusted", folder),
+                              fmt::format("'forage trust {}' trusts them: they are programs", folder));
+    }
+    return !diagnostics.failed();
 }
 
 Registry known_types(const std::vector<plugin::Plugin>& plugins) {

@@ -71,6 +71,9 @@ std::optional<Loaded> load(const RunInput& input, Diagnostics& diagnostics);
 std::optional<engine::Simulation> compile(const std::optional<Loaded>& loaded, std::uint64_t seed,
                                           Diagnostics& diagnostics);
 
+/// Reports plugins that are named, but by a file that another person may have written, and lie in folders
+/// that are not trusted. Returns whether there are none.
+bool check_trusted(const std::vector<std::string>& plugins, Diagnostics& diagnostics);
 /// The digests of all files that a run reads before it starts: system, world, tables, patterns.
 InputFiles input_files(const RunSpec& spec, const Sources& sources);
 /// The digests of the files of system and world, without their paths, so that results stay valid when the
