@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "core/run/bundle.h"
 #include "core/run/checkpoint_file.h"
 #include "core/run/run_json.h"
 
@@ -111,6 +112,11 @@ RunOutcome run_to_end(PreparedRun& p, const RunCallbacks& callbacks) {
     } else {
         write_results(p, out);
         for (const auto& text : out.files.problems()) problem(text);
+        if (!p.spec.bundle.empty() && out.stopped.empty() && out.problems.empty()) try {
+                write_bundle(p.spec.bundle, p.spec.command, p.inputs, p.module_texts, p.spec.directory);
+            } catch (const std::exception& e) {
+                problem(e.what());
+            }
     }
     return out;
 }

@@ -34,6 +34,8 @@ struct PreparedRun {
     /// Returns sentences on what drove the robots, after the run; empty like `statistics`.
     std::function<std::vector<std::string>()> commands = [] { return std::vector<std::string>(); };
     std::vector<std::string> plugins = {};  ///< paths of the loaded files
+    InputFiles inputs = {};                 ///< what a run of the command line has read
+    FileTexts module_texts = {};            ///< for a bundle: files of modules, which may write them
     /// Names and versions of libraries, for run.json.
     std::vector<std::pair<std::string, std::string>> libraries = {};
 };

@@ -14,8 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A file that a run has read, with its digest (64-bit FNV-1a), which shows later changes.
-Json input_file(const std::string& path) { return {{"file", path}, {"fnv1a64", file_digest(path)}}; }
+/// A file that a run has read, with its digest, which shows later changes.
+Json input_file(const std::string& path) { return {{"file", path}, {"sha256", file_digest(path)}}; }
 
 std::string base_name(const std::string& path) { return std::filesystem::path(path).filename().string(); }
 
@@ -80,6 +80,7 @@ std::vector<std::pair<std::string, std::string>> run_attributes(
 std::string run_json(const PreparedRun& p, const RunOutcome& outcome) {
     const Run& run = p.run;
     auto json = settings_json(p.spec, run, p.plugins, p.libraries);
+    if (!p.spec.command.empty()) json["command"] = p.spec.command, json["inputs"] = p.inputs;
     if (const auto cycles = p.stop.cycles()) json["cycles"] = *cycles;
     auto& result = json["result"];
     result["cycles"] = run.cycle();
@@ -136,13 +137,16 @@ std::optional<FinishedRun> read_run_json(const std::string& directory) {
         for (const auto& binding : json.value("robot", Json::array()))
             out.input.robots.push_back({binding.get<std::string>()});
         out.input.lenient = json.value("lenient", false);
+        out.command = json.value("command", std::vector<std::string>());
+        out.inputs = json.value("inputs", InputFiles());
         out.seconds_per_cycle = world.value("seconds_per_cycle", 0.0);
         for (const auto& f : result.value("files", Json::array()))
             if (f.get<std::string>() == file_name(f.get<std::string>())) out.files.push_back(f);
         for (const auto& r : result.value("recordings", Json::array()))
             out.recordings.push_back({r.at("file"), r.at("source"), r.at("label")});
         for (const auto& [key, value] : json.items())
-            if (key != "libraries" && key != "compiler" && key != "result")
+            if (key != "libraries" && key != "compiler" && key != "command" && key != "inputs" &&
+                key != "result")
                 out.settings.emplace_back(key, value.is_string() ? value.get<std::string>() : value.dump());
         return out;
     } catch (const Json::exception&) {

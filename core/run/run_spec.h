@@ -101,6 +101,9 @@ struct RunSpec {
         remote;  ///< where the run receives commands (remote_control.h); nowhere when empty
     BroadcastSpec broadcast;
     std::vector<std::string> arguments;  ///< arguments of the command line, which checkpoints keep
+    /// Those words of the command line that decide the results; empty when no command line began the run.
+    std::vector<std::string> command;
+    std::string bundle;  ///< archive for everything that repeats the run (bundle.h); none when empty
 };
 
 }  // namespace forage

@@ -26,6 +26,11 @@ struct ResumeOptions {
     int threads = 0;   ///< 0 for as many as before the stop
     bool quiet = false;
 };
+struct RerunOptions {
+    std::string path;                        ///< a bundle, a run.json or a directory of results
+    std::string directory = "forage-rerun";  ///< where it is unpacked and run
+    bool quiet = false;
+};
 /// Parses the arguments of `forage run`.
 using RunParser = std::function<RunOptions(const std::vector<std::string>& arguments)>;
 
@@ -70,6 +75,7 @@ struct ExperimentOptions {
     bool fresh = false;  ///< whether finished runs are repeated
     bool quiet = false;
     std::vector<std::string> formats = {};  ///< of further tables: "npy", "hdf5"
+    std::string bundle = {};                ///< archive for everything that repeats it; none when empty
     std::string shard = {};                 ///< "3/10": executes this part only
     bool merge = false, status = false;
     std::size_t after_round = 0;  ///< with merge: Slurm gets the next round when a later one is planned
@@ -77,6 +83,9 @@ struct ExperimentOptions {
     int tasks = 0;                         ///< of Slurm's array; 0: at most 100
     std::vector<std::string> sbatch = {};  ///< further options of sbatch, such as "--partition=short"
 };
+
+/// The words of the command line that decide the results of an experiment.
+std::vector<std::string> command_of(const ExperimentOptions& options);
 
 struct WorldCommand {
     std::string file;     ///< .world
@@ -128,6 +137,8 @@ int run(const RunOptions& options);
 int run_to_end(const RunOptions& options, PreparedRun& prepared);
 /// Continues a stopped run from its last checkpoint. It writes the same files as an uninterrupted run.
 int resume(const ResumeOptions& options, const RunParser& parse);
+/// Repeats a run or an experiment, and compares the results with those of before.
+int rerun(const RerunOptions& options, const RunParser& parse);
 int plot(const PlotOptions& options);
 /// Runs every combination of an experiment file with every seed. Runs that were finished before are not
 /// repeated.

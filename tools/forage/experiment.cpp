@@ -9,6 +9,7 @@
 
 #include "core/base/number.h"
 #include "core/base/print.h"
+#include "core/run/bundle.h"
 #include "core/run/experiment/rounds.h"
 #include "core/run/experiment/tables.h"
 #include "tools/cluster/slurm.h"
@@ -164,6 +165,13 @@ int experiment_in_parts(const ExperimentOptions& o) {
 
 }  // namespace
 
+std::vector<std::string> command_of(const ExperimentOptions& o) {
+    std::vector<std::string> out = {"experiment", o.file};
+    for (const auto& plugin : o.plugins) out.insert(out.end(), {"--plugin", plugin});
+    for (const auto& format : o.formats) out.insert(out.end(), {"--table-format", format});
+    return out;
+}
+
 int experiment(const ExperimentOptions& o) {
     if (!o.shard.empty() || o.merge || o.status || o.slurm) return experiment_in_parts(o);
     Diagnostics diagnostics;
@@ -171,12 +179,15 @@ int experiment(const ExperimentOptions& o) {
     if (diagnostics.failed() || !o.quiet) print(stderr, "{}", format(diagnostics));
     if (!wanted) return bad_input;
     begin(*wanted);
+    const InputFiles inputs = o.bundle.empty() ? InputFiles() : input_files(o.file, *wanted);
     wanted->formats = formats_of(o);
     Progress progress(!o.quiet);
     const auto results = run_experiment(*wanted, o.jobs, o.fresh, callbacks_of(progress));
     progress.clear();
     if (!results) return print_stopped();
     const int status = print_results(o, *wanted, *results);
+    if (status == fine && !o.bundle.empty())
+        write_bundle(o.bundle, command_of(o), inputs, {}, wanted->directory);
     if (status != fine || o.system.empty()) return status;
     const int met = print_findings(o.system, findings(*wanted, *results, diagnostics));
     print("  results in {}\n", std::filesystem::path(wanted->results_file()).parent_path().string());

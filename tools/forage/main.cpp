@@ -70,6 +70,8 @@ int program(int argc, char** argv) {
     add_explain(app, explain_options);
     ResumeOptions resume_options;
     add_resume(app, resume_options);
+    RerunOptions rerun_options;
+    add_rerun(app, rerun_options);
     add_experiment(app, experiment_options);
     TutorialOptions tutorial_options;
     add_tutorial(app, tutorial_options);
@@ -184,6 +186,7 @@ int program(int argc, char** argv) {
         }
         if (app.got_subcommand("explain")) return run(explain_options);
         if (app.got_subcommand("resume")) return resume(resume_options, parse_run);
+        if (app.got_subcommand("rerun")) return rerun(rerun_options, parse_run);
         if (app.got_subcommand("tutorial")) return tutorial(tutorial_options);
         if (app.got_subcommand("experiment")) return experiment(experiment_options);
         if (app.got_subcommand("plot")) return plot(plot_options);

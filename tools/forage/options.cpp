@@ -181,6 +181,12 @@ void add_experiment(CLI::App& app, ExperimentOptions& o) {
                  "Write the results also as results.npy or results.h5: npy or hdf5; may be repeated"))
         ->check(one_of({"npy", "hdf5"}))
         ->option_text("FORMAT");
+    auto* bundle = experiment
+                       .add_option("--bundle", o.bundle,
+                                   "Write everything that repeats the experiment, and its results, to one "
+                                   ".zip file for 'forage rerun' and for archives")
+                       ->check(named("file"))
+                       ->option_text("FILE");
     experiment.add_flag("-q,--quiet", o.quiet, "Print errors only");
     const std::string cluster = "Many machines";
     auto* shard = experiment.add_option("--shard", o.shard, "Execute part I of N parts only, such as 3/10");
@@ -195,6 +201,7 @@ void add_experiment(CLI::App& app, ExperimentOptions& o) {
     auto* slurm =
         experiment.add_flag("--slurm", o.slurm, "Submit all parts to Slurm, and a merge behind them");
     for (auto* flag : {merge, status, slurm}) flag->group(cluster)->excludes(shard);
+    for (auto* flag : {shard, merge, status, slurm}) flag->excludes(bundle);
     merge->excludes(status)->excludes(slurm), status->excludes(slurm);
     experiment
         .add_option("--after-round", o.after_round,

@@ -34,6 +34,7 @@ void add_input(CLI::App& command, RunInput& input);
 void add_run(CLI::App& app, RunOptions& o);
 void add_explain(CLI::App& app, RunOptions& o);
 void add_resume(CLI::App& app, ResumeOptions& o);
+void add_rerun(CLI::App& app, RerunOptions& o);
 /// Parses the options of `forage run`. `arguments` are the words after the program's name.
 RunOptions parse_run(std::vector<std::string> arguments);
 void add_tutorial(CLI::App& app, TutorialOptions& o);

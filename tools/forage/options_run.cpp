@@ -146,6 +146,29 @@ void add_network(CLI::App& run, RunSpec& o) {
         ->needs(broadcast);
 }
 
+/// The words of a command line that decide its results.
+std::vector<std::string> deciding_words(const CLI::App& run) {
+    static constexpr std::string_view others[] = {
+        "output",         "threads", "checkpoint-every", "discard-checkpoint", "quiet", "realtime",
+        "bundle",         "video",   "remote",           "broadcast",          "help",  "broadcast-every",
+        "broadcast-group"};
+    std::vector<std::string> out = {run.get_name()};
+    for (const auto* option : run.get_options()) {
+        const bool positional = option->get_positional();
+        const std::string name = positional ? "" : option->get_lnames().front();
+        if (option->empty() || std::ranges::find(others, name) != std::end(others)) continue;
+        if (option->get_expected_max() == 0) {
+            out.push_back("--" + name);
+            continue;
+        }
+        for (const auto& value : option->results()) {
+            if (!positional) out.push_back("--" + name);
+            out.push_back(value);
+        }
+    }
+    return out;
+}
+
 /// Adds the options of `forage run`.
 void add_run_options(CLI::App& run, RunOptions& options) {
     RunSpec& o = options.spec;
@@ -227,6 +250,12 @@ void add_run_options(CLI::App& run, RunOptions& options) {
            "cut, 'forage resume' continues from there")
         ->option_text("N")
         ->excludes("--video");  // a film cannot be resumed
+    run.add_option("--bundle", o.bundle,
+                   "Write everything that repeats the run, and its results, to one .zip file for 'forage "
+                   "rerun' and for archives")
+        ->check(named("file"))
+        ->option_text("FILE")
+        ->excludes("--remote");  // what a network sends is not repeated
     run.add_flag("--discard-checkpoint", o.discard_checkpoint,
                  "Discard an unfinished run: without it, a directory with a checkpoint is refused");
     run.add_option_function<std::string>(
@@ -244,6 +273,7 @@ void add_run_options(CLI::App& run, RunOptions& options) {
     run.add_flag("--realtime", options.real_time,
                  "Run at most as fast as the clock: one second of the world per second");
     run.add_flag("-q,--quiet", options.quiet, "Print errors only");
+    run.callback([&run, &o] { o.command = deciding_words(run); });
 }
 
 }  // namespace
@@ -272,8 +302,8 @@ void add_explain(CLI::App& app, RunOptions& options) {
         "Example:\n"
         "  forage explain systems/reactive_foraging_exercise.iqr --world systems/worlds/basic_arena.world");
     add_run_options(explain, options);
-    for (const char* name :
-         {"--checkpoint-every", "--discard-checkpoint", "--remote"})  // a resumed run explains nothing
+    for (const char* name : {"--checkpoint-every", "--discard-checkpoint", "--remote",
+                             "--bundle"})  // a resumed run explains nothing
         explain.remove_option(explain.get_option(name));
 }
 
@@ -290,6 +320,26 @@ void add_resume(CLI::App& app, ResumeOptions& o) {
         ->transform(threads())
         ->option_text("N");
     resume.add_flag("-q,--quiet", o.quiet, "Print errors only");
+}
+
+void add_rerun(CLI::App& app, RerunOptions& o) {
+    auto& rerun = *app.add_subcommand(
+        "rerun", "Repeat a run or an experiment, and compare the results with those of before");
+    rerun.footer(
+        "Of a bundle, inputs/ has the files, expected/ the results of before, results/ those of now.\n"
+        "Example:\n"
+        "  forage run systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --bundle "
+        "paper.zip\n"
+        "  forage rerun paper.zip");
+    rerun
+        .add_option("FILE", o.path,
+                    "Bundle, or the run.json or the directory of results of a run whose files are in place")
+        ->required()
+        ->option_text("FILE|DIR");
+    rerun.add_option("-o,--output", o.directory, "Directory for files and results [forage-rerun]")
+        ->check(named("directory"))
+        ->option_text("DIR");
+    rerun.add_flag("-q,--quiet", o.quiet, "Print errors only");
 }
 
 RunOptions parse_run(std::vector<std::string> arguments) {

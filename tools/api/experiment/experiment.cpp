@@ -219,6 +219,15 @@ PartResults read_results(PreparedExperiment& e, const std::optional<Shard>& only
     return out;
 }
 
+InputFiles input_files(const std::string& file, const PreparedExperiment& e) {
+    InputFiles out = {{file, file_digest(file)}};
+    std::set<std::string> done;
+    for (std::size_t c = 0; c < e.runs.combinations(); ++c)
+        if (done.insert(e.runs.system(c)).second)
+            out.merge(input_files(e.runs[e.runs.first(c)].spec, e.sources.at(e.runs.system(c))));
+    return out;
+}
+
 std::vector<std::size_t> open_runs(const PartResults& found) {
     std::vector<std::size_t> out;
     for (std::size_t i = 0; i < found.results.size(); ++i)

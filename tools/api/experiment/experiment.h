@@ -96,6 +96,9 @@ std::vector<std::size_t> open_runs(const PartResults& results);
 /// returns nothing.
 std::optional<std::vector<RunResult>> merge(PreparedExperiment& experiment, Diagnostics& diagnostics);
 
+/// The digests of all files that the experiment in `file` has read, for a bundle.
+InputFiles input_files(const std::string& file, const PreparedExperiment& experiment);
+
 /// What became of the requirements of the file's exercise, in order; `results` are those of all runs.
 std::vector<Finding> findings(const PreparedExperiment& experiment, std::span<const RunResult> results,
                               Diagnostics& diagnostics);

@@ -1,6 +1,7 @@
 #include "tools/api/open/prepare.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -27,6 +28,16 @@ bool open_directory(const std::string& directory, DirectoryHold& hold, Diagnosti
     } catch (const std::exception& e) {
         diagnostics.error({}, e.what(), hint);
         return false;
+    }
+}
+
+/// Notes what the run reads, for run.json and for a bundle.
+void note_inputs(PreparedRun& run, const Sources& sources) {
+    run.inputs = input_files(run.spec, sources);
+    for (const auto& path : module_files(run.run.system(), run.run.registry(), run.schedule->assignments())) {
+        if (std::error_code none; !std::filesystem::is_regular_file(path, none)) continue;
+        run.inputs[path] = file_digest(path);
+        if (!run.spec.bundle.empty()) run.module_texts[path] = read_input_file(path);
     }
 }
 
@@ -67,6 +78,7 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
         if (!prepared.run.start(diagnostics)) return std::nullopt;
         const std::string& directory = prepared.spec.directory;
         if (!directory.empty() && !open_directory(directory, prepared.hold, diagnostics)) return std::nullopt;
+        if (!prepared.spec.command.empty()) note_inputs(prepared, sources);
         add_checkpoints(prepared, sources);
         return prepared;
     } catch (const std::exception& e) {
