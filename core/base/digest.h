@@ -8,7 +8,7 @@ namespace forage {
 
 /// The 64-bit FNV-1a digest of a text in hexadecimal digits, which shows whether the text has changed.
 std::string digest(std::string_view text);
-/// The SHA-256 digest of a text in hexadecimal digits, which nobody can imitate with another text.
+/// The SHA-256 digest of a text in hexadecimal digits, which no other text has.
 std::string sha256(std::string_view text);
 /// The SHA-256 digest of a file's content; that of an empty text when there is no such file.
 std::string file_digest(const std::string& path);

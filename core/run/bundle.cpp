@@ -174,6 +174,23 @@ std::string crate(const BundleRecord& r, const Entries& files) {
     return Json{{"@context", "https://w3id.org/ro/crate/1.1/context"}, {"@graph", graph}}.dump(2) + "\n";
 }
 
+/// Removes a folder when it goes.
+class Temporary {
+  public:
+    explicit Temporary(std::string path) : path_(std::move(path)) { clear(); }
+    Temporary(const Temporary&) = delete;
+    Temporary& operator=(const Temporary&) = delete;
+    ~Temporary() { clear(); }
+    const std::string& path() const { return path_; }
+
+  private:
+    void clear() const {
+        std::error_code none;
+        fs::remove_all(path_, none);
+    }
+    std::string path_;
+};
+
 /// Whether a name of a bundle stays in the folder into which it is unpacked.
 bool stays_inside(const fs::path& name) {
     return !name.empty() && name.is_relative() && std::ranges::find(name, "..") == name.end();
@@ -232,11 +249,9 @@ void write_bundle(const std::string& path, const std::vector<std::string>& comma
 
 BundleRecord unpack_bundle(const std::string& path, const std::string& folder) {
     const observe::ZipFile zip(path);
-    const auto target = [&](const std::string& name) -> std::string {
-        if (name == record_name) return folder + "/" + name;
-        if (name.starts_with("inputs/")) return folder + "/" + name;
-        if (name.starts_with("results/")) return folder + "/expected" + name.substr(7);
-        return {};
+    const auto target = [](const std::string& name) -> std::string {
+        if (name == record_name || name.starts_with("inputs/")) return "/" + name;
+        return name.starts_with("results/") ? "/expected" + name.substr(7) : "";
     };
     if (std::ranges::find(zip.entries(), record_name, &observe::ZipFile::Entry::name) == zip.entries().end())
         throw std::runtime_error(fmt::format("it has no {}", record_name));
@@ -245,15 +260,18 @@ BundleRecord unpack_bundle(const std::string& path, const std::string& folder) {
             throw std::runtime_error(fmt::format("its file '{}' leads out of the bundle", entry.name));
         if (is_plugin(entry.name)) throw std::runtime_error("it holds a plugin, which no bundle does");
     }
+    const Temporary part(partial(folder));  // nothing is left of a bundle that is refused
+    std::vector<std::string> files;
     for (const auto& entry : zip.entries()) {
-        const auto file = target(entry.name);
-        if (file.empty() || entry.name.ends_with('/')) continue;
-        make_directory(fs::path(file).parent_path().string());
-        zip.extract(entry, file);
+        const auto name = target(entry.name);
+        if (name.empty() || name.ends_with('/')) continue;
+        make_directory(fs::path(part.path() + name).parent_path().string());
+        zip.extract(entry, part.path() + name);
+        files.push_back(name);
     }
     BundleRecord out;
     try {
-        std::ifstream in(folder + "/" + record_name);
+        std::ifstream in(part.path() + "/" + record_name);
         out = record_of(Json::parse(std::string(std::istreambuf_iterator<char>(in), {})));
     } catch (const Json::exception& e) {
         throw std::runtime_error(fmt::format("its {} is not as Forage writes it: {}", record_name, e.what()));
@@ -262,8 +280,12 @@ BundleRecord unpack_bundle(const std::string& path, const std::string& folder) {
     for (const auto& model : out.model_folders)
         if (!stays_inside(model)) throw std::runtime_error("its folders of models lead out of the bundle");
     for (const auto& [name, sum] : out.inputs)
-        if (!stays_inside(name) || file_digest(folder + "/inputs/" + name) != sum)
+        if (!stays_inside(name) || file_digest(part.path() + "/inputs/" + name) != sum)
             throw std::runtime_error(fmt::format("its file '{}' is not the one that was bundled", name));
+    for (const auto& name : files) {
+        make_directory(fs::path(folder + name).parent_path().string());
+        fs::rename(part.path() + name, folder + name);
+    }
     return out;
 }
 

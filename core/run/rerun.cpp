@@ -30,7 +30,8 @@ void check_plugins(const BundleRecord& bundle, const std::string& inputs, Rerun&
             bundle.inputs, [&](const auto& input) { return fs::path(input.first).filename() == source; });
         if (std::error_code none; fs::exists(plugin, none)) {
             if (file_digest(plugin.string()) != sum)
-                out.notes.push_back(fmt::format("the plugin '{}' was built anew", name));
+                out.notes.push_back(
+                    fmt::format("the plugin '{}' is another build than that of before", name));
         } else if (beside == bundle.inputs.end()) {
             diagnostics.error(
                 {}, fmt::format("the plugin '{}' is needed, of which there is no source", name),
@@ -161,12 +162,6 @@ std::vector<Difference> differences(const Rerun& rerun) {
             what = first_difference(text_of(then), text_of(now));
         }
         if (!what.empty()) out.push_back({name, what});
-    }
-    const auto written = fs::recursive_directory_iterator(rerun.results);
-    for (const auto& entry : written) {
-        const auto name = entry.path().lexically_relative(rerun.results).string();
-        if (entry.is_regular_file() && std::ranges::find(rerun.files, name) == rerun.files.end())
-            out.push_back({name, "was not there before"});
     }
     return out;
 }

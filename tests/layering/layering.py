@@ -113,6 +113,7 @@ OWNED = [
     (r'tinyxml2\.h', {'core/xml'}),
     (r'Random123/', {'core/base'}),
     (r'(hdf5|H5\w*)(_hl)?\.h|zip\.h', {'core/observe'}),
+    (r'openssl/', {'core/base'}),
     (r'cairo', {'tools/plot'}),
     (r'boost/', {'tools/studio/server'}),
     (r'(bullet/|bt[A-Z]\w*\.h|Bullet\w*/|LinearMath/|opencv2?/|png\.h)', {'bug_interface'}),

@@ -35,7 +35,7 @@ int execute(const Rerun& rerun, bool quiet, const RunParser& parse, Diagnostics&
         diagnostics.error(
             {},
             fmt::format("Forage does not note such a command: 'forage {}'", separated(rerun.command, " ")),
-            "somebody has changed it; run it yourself if you trust it");
+            "the file was changed; run the command yourself if you trust it");
     return bad_input;
 }
 
