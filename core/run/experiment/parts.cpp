@@ -13,8 +13,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include "core/base/number.h"
 #include "core/base/digest.h"
+#include "core/base/number.h"
 #include "core/base/output_files.h"
 #include "core/run/experiment/result_json.h"
 
