@@ -205,14 +205,16 @@ class Writer : Printer {
     void connection(const model::Connection& c) {
         comments(c.comments);
         open("Connection"), attributes(c, !c.terse);
-        const bool only_weight = c.terse_synapse && c.synapse && has_only_weight(*c.synapse);
+        const auto* weights = std::get_if<model::Weights>(&c.pattern);
+        const bool only_weight = c.terse_synapse && c.synapse && has_only_weight(*c.synapse) &&
+                                 (!weights || c.synapse->settings.empty());  // never beside <Weights>
         if (only_weight)
             for (const auto& s : c.synapse->settings) attribute("weight", s.value);
         const auto written = [&c](const auto& part) {
             return !c.terse || part != std::remove_cvref_t<decltype(part)>{};
         };
         const auto* mapped = std::get_if<model::MappedPattern>(&c.pattern);
-        if (const auto* weights = std::get_if<model::Weights>(&c.pattern)) {
+        if (weights) {
             begin(*weights);
             if (!weights->text.empty()) text(weights->text);
             close();
