@@ -13,7 +13,8 @@ template <class F>
 void each_port(const System& system, F f) {
     for (const auto& p : system.processes)
         if (p.linked() && p.within.empty())
-            for (const auto& port : p.ports) f(p.id + "." + port.name, port.group);
+            for (const auto& port : p.ports)
+                if (!port.group.empty()) f(p.id + "." + port.name, port.group);
 }
 
 }  // namespace
@@ -22,6 +23,14 @@ const Process* outer(const System& system, const Process& process) {
     if (process.within.empty()) return nullptr;
     const auto it = std::ranges::find(system.processes, process.within, &Process::id);
     return it == system.processes.end() ? nullptr : &*it;
+}
+
+bool is_open_port(const System& system, std::string_view name) {
+    return std::ranges::any_of(system.processes, [&](const Process& p) {
+        return !p.linked() && std::ranges::any_of(p.ports, [&](const Port& port) {
+            return port.group.empty() && port.name == name;
+        });
+    });
 }
 
 void name_use(System& content, const Process& place) {
@@ -34,6 +43,7 @@ void name_use(System& content, const Process& place) {
         c.name = std::string(trim(place.name)) + "." + std::string(trim(c.name));
     Process& own = content.processes.front();
     own.id = place.id, own.name = place.name, own.within.clear();
+    if (!place.module_enabled) own.module_enabled = false;
 }
 
 void give(Process& place, const Constant& constant) {

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "core/model/system.h"
 
@@ -12,6 +13,9 @@ namespace forage::model {
 
 /// The process in whose file a process is linked; null for the system's own.
 const Process* outer(const System& system, const Process& process);
+
+/// Whether a name is that of an open port: one without a group, which each use of the file gives.
+bool is_open_port(const System& system, std::string_view name);
 
 /// Makes the content of a part that of one use of it: ids, names and references begin with those of `place`.
 /// The first process of `content` is that of the part.

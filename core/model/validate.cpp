@@ -15,6 +15,7 @@
 #include "core/model/constants.h"
 #include "core/model/lookup.h"
 #include "core/model/original_types.h"
+#include "core/model/parts.h"
 
 namespace forage::model {
 namespace {
@@ -360,7 +361,8 @@ class Validator {
                     r.at, fmt::format("{} has no cross reference '{}' in {}", use.type, r.name, holder),
                     known.empty() ? fmt::format("it has none in {}", holder) : suggest(r.name, known));
             }
-            if (!r.target.empty() && !groups_.find(r.target).group && !follows_from_repeated_)
+            if (!r.target.empty() && !groups_.find(r.target).group && !is_open_port(system_, r.target) &&
+                !follows_from_repeated_)
                 out_.error(r.at,
                            fmt::format("cross reference '{}' leads to '{}', which is not the id of a group",
                                        r.name, r.target),
@@ -575,21 +577,32 @@ class Validator {
     }
 
     std::string near_id(const std::string& id) const {
-        std::vector<std::string> ids, paths;
-        for (const auto& p : system_.processes)
-            for (const auto& g : p.groups) {
-                ids.push_back(g.id);
-                paths.push_back(std::string(trim(p.name)) + "/" + std::string(trim(g.name)));
-            }
-        for (const auto& p : system_.processes)
-            if (p.id == id) {
-                std::vector<std::string> own;
-                for (const auto& g : p.groups) own.push_back(g.id);
-                return fmt::format("'{}' is a process; its groups are '{}'", id, separated(own, "', '"));
-            }
+        std::vector<std::string> ids, paths;  // what connections may lead to: groups, and ports of parts
+        const auto add = [&](const Process& p, const Group& g, const std::string& own) {
+            ids.push_back(own);
+            paths.push_back(std::string(trim(p.name)) + "/" + std::string(trim(g.name)));
+        };
+        for (const auto& p : system_.processes) {
+            const auto first = static_cast<std::ptrdiff_t>(ids.size());
+            const bool is_part = p.linked() && !p.ports.empty();
+            if (is_part && !p.within.empty()) continue;
+            for (const auto& g : p.groups)
+                if (!is_part) add(p, g, g.id);
+            for (const auto& port : p.ports)
+                if (const auto g = groups_.find(port.group); is_part && g.group)
+                    add(*g.process, *g.group, p.id + "." + port.name);
+            if (p.id == id || (is_part && trim(p.name) == id))
+                return fmt::format(
+                    "'{}' is a process; its {} are '{}'", id, is_part ? "ports" : "groups",
+                    separated(std::span(ids).subspan(static_cast<std::size_t>(first)), "', '"));
+            if (is_part && id.starts_with(p.id + "."))
+                return fmt::format(
+                    "the ports of '{}' are '{}'", p.path,
+                    separated(std::span(ids).subspan(static_cast<std::size_t>(first)), "', '"));
+        }
         for (std::size_t i = 0; i < paths.size(); ++i)
             if (paths[i] == id || paths[i].substr(paths[i].find('/') + 1) == id)
-                return fmt::format("'{}' is a name; the group's id is '{}'", id, ids[i]);
+                return fmt::format("'{}' is a name; write '{}'", id, ids[i]);
         if (const auto near = nearest(id, ids); !near.empty()) return fmt::format("did you mean '{}'?", near);
         return "ids are the id attributes of <Group> elements";
     }

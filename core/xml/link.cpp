@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/named_file.h"
 #include "core/base/separated.h"
 #include "core/model/lookup.h"
 #include "core/model/parts.h"
@@ -47,7 +48,7 @@ class Linker {
                 out_.error(place.path_at, "the process of a process file is linked itself",
                            "a linked process cannot lead to another file: empty 'path'");
             } else if (!place.path.empty()) {
-                auto content = content_of(place);
+                auto content = is_taken(place) ? std::nullopt : content_of(place);
                 complete = complete && content;
                 if (content) {
                     take_over(place, *std::move(content));
@@ -64,17 +65,35 @@ class Linker {
     }
 
   private:
+    /// Reports a use with the id of another process, which all ids of the part would repeat. Returns whether
+    /// it did.
+    bool is_taken(const model::Process& place) {
+        const auto it = std::ranges::find_if(
+            system_.processes, [&](const model::Process& p) { return p.id == place.id && p.within.empty(); });
+        if (it == system_.processes.end()) return false;
+        out_.error(place.at,
+                   fmt::format("the id '{}' of this process is already used on line {}", place.id,
+                               (it->linked() ? it->placeholder.front() : *it).at.line),
+                   "ids are unique over the whole file");
+        return true;
+    }
+
     /// The content of the file that a process links; empty after an error.
     std::optional<model::System> content_of(const model::Process& place) {
         const auto file = model::resolved(place.path, place.path_at);
         std::error_code ignored;
         if (!std::filesystem::is_regular_file(file, ignored)) {
+            Diagnostics near;
+            find_file(file, place.path_at, near);
+            const std::string hint = near.all().empty() ? "" : near.all().front().hint;
             out_.error(
                 place.path_at,
                 fmt::format("process '{}' is linked to '{}', which cannot be read", place.name, place.path),
-                fmt::format("the path is relative to the system file: '{}'; empty it to use what this "
-                            "file says",
-                            file));
+                hint.starts_with("did you mean")
+                    ? hint
+                    : fmt::format("the path is relative to the file that says it: '{}'; empty it to use what "
+                                  "this file says",
+                                  file));
             return {};
         }
         const Use use{place.path_at, use_, read_};
@@ -104,7 +123,7 @@ class Linker {
         auto content = failed ? std::nullopt : read_part(file, &use, out_);
         if (!content) return {};
         const model::Process& own = content->processes.front();
-        if (own.ports.empty() && is_second_link(place, own, file)) return {};
+        if (own.ports.empty() ? is_second_link(place, own, file) : has_content(place)) return {};
         return content;
     }
 
@@ -128,6 +147,18 @@ class Linker {
                         some_of(ids)),
             "a file with a <Port name=\"...\" group=\"...\"/> may be used any number of times: each use "
             "has ids of its own");
+        return true;
+    }
+
+    /// Reports groups and a module in the use of a part, which would have no effect. Returns whether there
+    /// are any.
+    bool has_content(const model::Process& place) {
+        if (!place.module && place.groups.empty()) return false;
+        out_.error(
+            place.groups.empty() ? place.module->at : place.groups.front().at,
+            fmt::format("process '{}' uses '{}' and cannot have {} of its own", model::trim(place.name),
+                        place.path, place.groups.empty() ? "a module" : "groups"),
+            "a use sets constants and open ports; other groups belong to other processes");
         return true;
     }
 
@@ -157,8 +188,12 @@ class Linker {
     void give_constants(model::Process& own, const model::Process& place) {
         std::vector<std::string> names;
         for (const auto& c : own.constants) names.push_back(c.name);
-        for (const auto& c : place.constants) {
+        for (std::set<std::string_view> set; const auto& c : place.constants) {
             const auto it = std::ranges::find(own.constants, c.name, &model::Constant::name);
+            if (!set.insert(c.name).second) {
+                out_.error(c.name_at, fmt::format("the constant '{}' is set twice", c.name));
+                continue;
+            }
             if (it == own.constants.end()) {
                 out_.error(c.name_at, fmt::format("'{}' has no constant '{}'", place.path, c.name),
                            suggest(c.name, names));
@@ -198,27 +233,128 @@ class Linker {
             else if (const auto group = inside.find(end); group != inside.end())
                 out_.error(at, fmt::format("'{}' is no port of '{}'", end, group->second->path),
                            suggest(end, names));
+            else
+                return false;
+            return true;
         };
+        fill_open_ports(enter, names);
         for (auto& c : system_.connections)
             if (!c.linked) enter(c.source, c.source_at), enter(c.target, c.target_at);
         for (auto& p : system_.processes)
             if (!p.linked())
-                for (auto& port : p.ports) enter(port.group, port.group_at);
+                for (auto& port : p.ports) enter(port.group, port.group_at);  // an open one has none
         check_ports();
+        if (is_part_ && use_ && !system_.processes.front().ports.empty()) check_part();
+    }
+
+    /// Gives modules of parts the groups that the uses name for the open ports. `enter` replaces a port by
+    /// its group; `names` are what it knows.
+    void fill_open_ports(const auto& enter, std::vector<std::string> names) {
+        std::vector<std::string> groups;
+        for (const auto& p : system_.processes)
+            if (!p.linked())
+                for (const auto& g : p.groups) groups.push_back(g.id);
+        if (is_part_)
+            for (const auto& port : system_.processes.front().ports)
+                if (port.group.empty()) groups.push_back(port.name);
+        names.insert(names.end(), groups.begin(), groups.end());
+        model::Names given;
+        for (const auto& p : system_.processes) {
+            if (!p.linked() || !p.within.empty()) continue;
+            std::vector<std::string> open;
+            for (const auto& port : p.ports)
+                if (port.group.empty()) open.push_back(port.name);
+            std::set<std::string_view> known;
+            for (const auto& port : p.placeholder.front().ports) {
+                known.insert(port.name);
+                if (std::ranges::find(open, port.name) == open.end()) {
+                    out_.error(port.name_at,
+                               fmt::format("'{}' has no port '{}' without a group", p.path, port.name),
+                               suggest(port.name, open));
+                } else if (std::string group = port.group; group.empty()) {
+                    out_.error(port.at, fmt::format("the port '{}' gets no group", port.name),
+                               "group=\"...\": the id of a group, or a port of another part");
+                } else if (!enter(group, port.group_at) && std::ranges::find(groups, group) == groups.end()) {
+                    out_.error(port.group_at, fmt::format("there is no group '{}' here", group),
+                               suggest(group, names));
+                } else if (!given.emplace(p.id + "." + port.name, group).second) {
+                    out_.error(port.name_at, fmt::format("the port '{}' gets two groups", port.name));
+                }
+            }
+            const bool all_known = std::ranges::all_of(
+                known, [&](std::string_view name) { return std::ranges::find(open, name) != open.end(); });
+            for (const auto& name : open)
+                if (all_known && !known.contains(name))
+                    out_.error(
+                        p.placeholder.front().at,
+                        fmt::format("process '{}' gives no group for the port '{}' of '{}'",
+                                    model::trim(p.name), name, p.path),
+                        fmt::format("put <Port name=\"{}\" group=\"...\"/> into it, with the id of a group",
+                                    name));
+        }
+        for (auto& p : system_.processes)
+            if (p.module)
+                for (auto* side : {&p.module->inputs, &p.module->outputs})
+                    for (auto& r : *side)
+                        if (const auto it = given.find(r.target); it != given.end()) r.target = it->second;
+    }
+
+    /// Reports repeated ids and references to nothing in the file of a part, by its own names: later they
+    /// are those of each use.
+    void check_part() {
+        std::set<std::string_view> known, ids;
+        for (const auto& p : system_.processes)
+            for (const auto& g : p.groups) known.insert(g.id);
+        const auto see = [&](const std::string& id, const Location& at, const char* what) {
+            if (!ids.insert(id).second)
+                out_.error(at, fmt::format("the id '{}' of this {} is already used", id, what),
+                           "ids are unique over the whole file");
+        };
+        std::vector<std::string> names;
+        for (const auto& [name, group] : model::groups_by_port(system_)) names.push_back(name);
+        for (const auto& g : system_.processes.front().groups)
+            see(g.id, g.at, "group"), names.push_back(g.id);
+        const auto refuse = [&](const Location& at, const std::string& what, const std::string& group) {
+            out_.error(at, fmt::format("{} leads to '{}', which is not in this part", what, group),
+                       suggest(group, names));
+        };
+        for (const auto& c : system_.connections) {
+            if (c.linked) continue;
+            see(c.id, c.at, "connection");
+            const std::string what = fmt::format("connection '{}'", model::trim(c.name));
+            if (!known.contains(c.source)) refuse(c.source_at, what, c.source);
+            if (!known.contains(c.target)) refuse(c.target_at, what, c.target);
+        }
+        const model::Process& own = system_.processes.front();
+        for (const auto& port : own.ports)
+            if (port.group.empty()) known.insert(port.name), names.push_back(port.name);
+        if (own.module)
+            for (const auto* side : {&own.module->inputs, &own.module->outputs})
+                for (const auto& r : *side)
+                    if (!r.target.empty() && !known.contains(r.target))
+                        refuse(r.at, fmt::format("cross reference '{}'", r.name), r.target);
     }
 
     void check_ports() {
         for (const auto& p : system_.processes) {
             if (p.linked() || p.ports.empty()) continue;
-            std::vector<std::string> groups;
+            std::vector<std::string> groups, named;  // `named`: as the file calls them
             for (const auto& other : system_.processes)
                 if (is_part_ || &other == &p)
-                    for (const auto& g : other.groups) groups.push_back(g.id);
+                    for (const auto& g : other.groups) {
+                        groups.push_back(g.id);
+                        if (!other.linked()) named.push_back(g.id);
+                    }
+            if (is_part_)
+                for (const auto& [name, group] : model::groups_by_port(system_)) named.push_back(name);
             std::set<std::string_view> names;
             for (const auto& port : p.ports) {
-                if (std::ranges::find(groups, port.group) == groups.end())
+                if (port.group.empty() && !is_part_)
+                    out_.error(port.at, fmt::format("the port '{}' has no group", port.name),
+                               "only the process of a process file can leave it to the uses of the file");
+                else if (!port.group.empty() && std::ranges::find(groups, port.group) == groups.end())
                     out_.error(port.group_at, fmt::format("there is no group '{}' here", port.group),
-                               suggest(port.group, groups));
+                               suggest(port.group, named));
                 if (port.name != port.group && std::ranges::find(groups, port.name) != groups.end())
                     out_.error(port.name_at,
                                fmt::format("the port '{}' has the id of another group", port.name),

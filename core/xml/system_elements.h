@@ -110,10 +110,13 @@ inline auto system_elements() {
               &Process::path_at},
              {&Process::color, color()}}),
         element<Port>(
-            "Port", "a group of a process file that other processes connect to", "",
+            "Port",
+            "a group of a process file that other processes connect to, or one of theirs that it reads", "",
             {{&Port::name, required(text("name", "after the id of the process: source=\"left.name\"")),
               &Port::name_at},
-             {&Port::group, group("group"), &Port::group_at}}),
+             {&Port::group,
+              omit_default(text("group", "id of a group; empty: each use of the file gives one of its own")),
+              &Port::group_at}}),
         element<Constant>(
             "Constant", "a number with a name, which formulas in braces use", "",
             {{&Constant::name, required(text("name", "letters, digits and _")), &Constant::name_at},

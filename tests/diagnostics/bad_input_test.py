@@ -50,6 +50,7 @@ COMMANDS = {
 SOUND = [
     ["check", "system.iqr", "--world", "world.world"],
     ["check", "part.iqrProcess"],
+    ["check", "parts.iqr"],
     ["convert", "system.iqr", "out.iqr", "--import", "part.iqrProcess"],
     ["check", "learning.iqr", "--set", "Adaptive.read=true", "--set", "Adaptive.File Name=weights.weights"],
     ["run", "system.iqr", "--cycles", "5", "-o", "out", "--clamp", "table.csv", "--add", "P/A=patterns.txt", "--record", "P/A"],

@@ -175,10 +175,10 @@ TEST_CASE("Unknown groups at the ends of a connection are reported with the id t
         "28:44: error: the source 'aa' of connection 'A to B' is not the id of a group | did you mean 'a'?");
     CHECK(one("target=\"a\" type", "target=\"P/B\" type") ==
           "28:55: error: the target 'P/B' of connection 'A to B' is not the id of a group | 'P/B' is a name; "
-          "the group's id is 'b'");
+          "write 'b'");
     CHECK(one("source=\"a\"", "source=\"A\"") ==
-          "28:44: error: the source 'A' of connection 'A to B' is not the id of a group | 'A' is a name; the "
-          "group's id is 'a'");
+          "28:44: error: the source 'A' of connection 'A to B' is not the id of a group | 'A' is a name; "
+          "write 'a'");
     CHECK(one("source=\"a\"", "source=\"nothing\"") ==
           "28:44: error: the source 'nothing' of connection 'A to B' is not the id of a group | ids are the "
           "id attributes of <Group> elements");

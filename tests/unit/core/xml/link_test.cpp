@@ -149,6 +149,46 @@ TEST_CASE("a part is used twice, with parts of its own and constants of each use
     }
 }
 
+TEST_CASE("a module of a part reads the group that each use gives") {
+    Parts parts;
+    parts.folder.write("reader.iqrProcess", R"(<iqrEntity type="Process">
+  <Process id="r" name="Reader">
+    <Port name="seen"/>
+    <Port name="out" group="out"/>
+    <Module name="moduleX">
+      <XRefHolder name="InputFromGroup"><XRef name="in" target="seen"/></XRefHolder>
+      <XRefHolder name="OutputToGroup"><XRef name="out" target="out"/></XRefHolder>
+    </Module>
+    )" + replaced(group("out", "neuronLinearThreshold"), "{n}", "2") +
+                                                "</Process></iqrEntity>");
+    // A part that hands its own open port on.
+    parts.folder.write("outer.iqrProcess", R"(<iqrEntity type="Process">
+  <Process id="o" name="Outer"><Port name="given"/><Port name="out" group="inner.out"/></Process>
+  <Process id="inner" name="Inner" path="reader.iqrProcess"><Port name="seen" group="given"/></Process>
+</iqrEntity>)");
+    const std::string text = R"(<System id="s" name="S">
+  <Process id="h" name="H" path="half.iqrProcess"/>
+  <Process id="a" name="A" enableModule="false" path="reader.iqrProcess"><Port name="seen" group="h.out"/></Process>
+  <Process id="b" name="B" path="outer.iqrProcess"><Port name="given" group="a.out"/></Process>
+</System>)";
+    const auto s = parts.read(text);
+    INFO(format(parts.diagnostics));
+    REQUIRE(s);
+    const auto seen = [&](std::string_view id) {
+        return std::ranges::find(s->processes, id, &model::Process::id)->module->inputs.at(0).target;
+    };
+    CHECK(seen("a") == "h.dst");
+    CHECK(seen("b.inner") == "a.out");
+    CHECK(!s->processes.at(1).module_enabled);  // the use can disable it
+    const std::string written = xml::write_system(*s);
+    CHECK(written.find("<Port name=\"seen\" group=\"h.out\"/>") != std::string::npos);
+    CHECK(parts.read(written) == s);
+
+    auto embedded = *s;
+    model::embed_links(embedded);
+    CHECK(xml::write_system(embedded).find("<XRef name=\"in\" target=\"h.dst\"/>") != std::string::npos);
+}
+
 TEST_CASE("mistakes about parts are found together, each once and with the place of the use") {
     Parts parts;
     CHECK(
