@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree as ElementTree
 
 FORAGE, PROJECT = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
 KEPT = PROJECT / "tests/data/digests.json"
@@ -47,6 +48,26 @@ class Digests(unittest.TestCase):
         if os.environ.get("FORAGE_REWRITE_EXPECTATIONS"):
             KEPT.write_text(json.dumps(found, indent=2) + "\n")
         self.assertEqual(found, json.loads(KEPT.read_text()))
+
+    def test_dac_foraging_from_parts_has_the_digest_of_dac_foraging(self):
+        """A digest covers the ids of connections and the constants. So the parts are written out, with the ids of the other file."""
+
+        def ends(connection):
+            return connection.get("source"), connection.get("target"), connection.get("type") or "excitatory"
+
+        ids = {ends(c): c.get("id") for c in ElementTree.parse(SYSTEMS / "dac_foraging.iqr").iter("Connection")}
+        with tempfile.TemporaryDirectory() as folder:
+            plain = f"{folder}/plain.iqr"
+            subprocess.run([FORAGE, "convert", SYSTEMS / "parts/dac_foraging.iqr", plain, "--embed", "--original"], check=True)
+            tree = ElementTree.parse(plain)
+            for connection in tree.iter("Connection"):
+                connection.set("id", ids.pop(ends(connection)))
+            self.assertEqual(ids, {})
+            tree.write(plain)
+            arguments = next(arguments for name, arguments in runs() if name == "dac_foraging")
+            subprocess.run([FORAGE, "run", plain, *arguments[1:], "--hash", "-q", "-o", f"{folder}/out"], check=True, cwd=folder)
+            found = json.loads(pathlib.Path(folder, "out", "run.json").read_text())["result"]["state"]
+        self.assertEqual(found, json.loads(KEPT.read_text())["dac_foraging"])
 
 
 if __name__ == "__main__":
