@@ -335,6 +335,8 @@ System system_of(ProcessFile file) {
 }
 
 void make_original(System& system) {
+    const auto is_part = [](const Process& p) { return p.linked() && !p.ports.empty(); };
+    if (std::ranges::any_of(system.processes, is_part)) embed_links(system);
     complete(system.processes, system.connections);
     write_out_formulas(system);
 }

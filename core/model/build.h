@@ -84,7 +84,8 @@ void embed_links(System& system);
 /// The process as a system of its own.
 System system_of(ProcessFile file);
 
-/// Makes a system one that the original can read: complete, with numbers instead of formulas.
+/// Makes a system one that the original can read: complete, with numbers instead of formulas and without
+/// links to parts.
 void make_original(System& system);
 /// The same for a process file. Reports formulas that have no value.
 void make_original(ProcessFile& file, Diagnostics& diagnostics);

@@ -58,7 +58,7 @@ class Digests(unittest.TestCase):
         ids = {ends(c): c.get("id") for c in ElementTree.parse(SYSTEMS / "dac_foraging.iqr").iter("Connection")}
         with tempfile.TemporaryDirectory() as folder:
             plain = f"{folder}/plain.iqr"
-            subprocess.run([FORAGE, "convert", SYSTEMS / "parts/dac_foraging.iqr", plain, "--embed", "--original"], check=True)
+            subprocess.run([FORAGE, "convert", SYSTEMS / "parts/dac_foraging.iqr", plain, "--original"], check=True)
             tree = ElementTree.parse(plain)
             for connection in tree.iter("Connection"):
                 connection.set("id", ids.pop(ends(connection)))

@@ -184,9 +184,10 @@ TEST_CASE("a module of a part reads the group that each use gives") {
     CHECK(written.find("<Port name=\"seen\" group=\"h.out\"/>") != std::string::npos);
     CHECK(parts.read(written) == s);
 
-    auto embedded = *s;
-    model::embed_links(embedded);
-    CHECK(xml::write_system(embedded).find("<XRef name=\"in\" target=\"h.dst\"/>") != std::string::npos);
+    auto plain = *s;
+    model::make_original(plain);
+    CHECK(xml::write_system(plain).find(" path=") == std::string::npos);
+    CHECK(xml::write_system(plain).find("<XRef name=\"in\" target=\"h.dst\"/>") != std::string::npos);
 }
 
 TEST_CASE("mistakes about parts are found together, each once and with the place of the use") {
