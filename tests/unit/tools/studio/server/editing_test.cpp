@@ -39,6 +39,9 @@ struct Editor {
         fs::create_directories(folder);
         ::setenv("XDG_STATE_HOME", folder.c_str(), 1);
         fs::copy_file(FORAGE_SOURCE_DIR "/systems/" + system, file, fs::copy_options::overwrite_existing);
+        if (system == "team_a.iqr")  // the brain of its robots
+            fs::copy_file(FORAGE_SOURCE_DIR "/systems/team_robot.iqrProcess",
+                          folder / "team_robot.iqrProcess", fs::copy_options::overwrite_existing);
         RunInput input;
         input.system = file;
         if (!world_and_others.empty()) {
