@@ -770,22 +770,67 @@ class Others(Cli):
         for system in (SYSTEM, self.awkward_system()):
             text = self.forage("describe", system, "--format", "markdown").stdout
             rows = [line for line in text.splitlines() if line.startswith("|")]
-            self.assertIn("| Group | Size | Neuron | Parameters |", rows)
+            self.assertIn("| Group | Size | Neuron | Values of its own |", rows)
             for row in rows:
-                self.assertIn(len(re.findall(r"(?<!\\)\|", row)), (3, 5, 8), row)
+                self.assertIn(len(re.findall(r"(?<!\\)\|", row)), (3, 5, 6), row)
 
     @unittest.skipUnless(shutil.which("pdflatex"), "pdflatex is not installed")
     def test_tables_for_papers_are_typeset(self):
-        for system in (SYSTEM, self.awkward_system()):
-            (self.here / "tables.tex").write_text(self.forage("describe", system, "--latex").stdout)
-            (self.here / "paper.tex").write_text(
-                r"\documentclass{article}\usepackage[T1]{fontenc}\usepackage{longtable,booktabs,array}" r"\begin{document}\input{tables}\end{document}"
-            )
-            done = subprocess.run(
-                ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "paper.tex"], cwd=self.here, capture_output=True, text=True, errors="replace"
-            )
-            self.assertEqual(done.returncode, 0, done.stdout)
-            self.assertTrue((self.here / "paper.pdf").exists())
+        folder = pathlib.Path(SYSTEM).parent
+        systems = ("models/gpr", "models/izhikevich", "models/hodgkin_huxley", "dac_foraging", "parts/tour")
+        for system in (pathlib.Path(SYSTEM), self.awkward_system(), *(folder / f"{name}.iqr" for name in systems)):
+            with self.subTest(system.name):
+                (self.here / "tables.tex").write_text(self.forage("describe", system, "--latex").stdout)
+                (self.here / "paper.tex").write_text(
+                    r"\documentclass{article}\usepackage[T1]{fontenc}\usepackage{amsmath,array,booktabs,longtable}"
+                    r"\begin{document}\input{tables}\end{document}"
+                )
+                done = subprocess.run(
+                    ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "paper.tex"], cwd=self.here, capture_output=True, text=True, errors="replace"
+                )
+                self.assertEqual(done.returncode, 0, done.stdout)
+                self.assertNotIn("Overfull \\hbox", done.stdout)
+                self.assertTrue((self.here / "paper.pdf").exists())
+
+    def test_descriptions_for_papers_have_all_values_in_force(self):
+        models = pathlib.Path(SYSTEM).parent / "models"
+        for format, equation, rows in (
+            (
+                "latex",
+                r"\frac{\mathrm{d}v}{\mathrm{d}t} = \frac{0.04\,v^{2} + 5\,v + 140 - u + \mathit{exc}}{\mathit{ms}}",
+                (r"$v$ at start & \hspace{0pt}$-$65 & \hspace{0pt}mV &", r"$\mathit{weight}$ & \hspace{0pt}1 &"),
+            ),
+            ("markdown", r"\frac{\mathrm{d}u}{\mathrm{d}t}", (r"| $v$ at start | -65 | mV |", r"| $\mathit{weight}$ | 1 |")),
+        ):
+            text = self.forage("describe", models / "izhikevich.iqr", "--format", format).stdout
+            self.assertIn(equation, text)
+            for row in rows:
+                self.assertIn(row, text)
+        gpr = self.forage("describe", models / "gpr.iqr", "--format", "markdown").stdout
+        self.assertIn(r"| $\tau$ | 0.04 | s |", gpr)  # the same in all groups
+        self.assertIn(r"| $\mathit{ceiling}$ | 1 |", gpr)  # a default
+        self.assertIn(r"| $\mathit{modGain}$ | 0 (unless stated) |", gpr)
+        self.assertIn(r"| BG/D2 | 6 x 1 | Leaky integrator | $\mathit{modGain}$ = -1 |", gpr)
+        self.assertIn("| Cortex to D1 | Input/Cortex to BG/D1 | 6 excitatory | one to one | Fixed weight |", gpr)
+        foraging = self.forage("describe", SYSTEM, "--format", "markdown").stdout
+        self.assertIn("## Cells that connections list (column, row)", foraging)
+        self.assertRegex(foraging, r"\| \(\d[^|]* to \(\d")
+        self.assertIn("Gaussian ones min + (max - min)", foraging)
+
+    def test_figures_have_panels(self):
+        figure = ("plot", SYSTEM, "diagram", "connection:Light to US", "wiring:US to Approach", "--layout", "2x2")
+        self.assertEqual(self.forage(*figure, "--plot-format", "svg").stdout, "figure.svg\n")
+        self.assertEqual(self.forage(*figure, "--plot-format", "pdf", "--width", 180).stdout, "figure.pdf\n")
+        pdf = (self.here / "figure.pdf").read_bytes()
+        self.assertIn(b"/FontFile", pdf)
+        width = float(re.search(rb"/MediaBox \[ ?0 0 ([0-9.]+)", pdf)[1])
+        self.assertAlmostEqual(width, 180 / 25.4 * 72, delta=1)
+        self.forage(*figure, "--width", 180)
+        png = (self.here / "figure.png").read_bytes()
+        self.assertAlmostEqual(int.from_bytes(png[16:20], "big"), 180 / 25.4 * 300, delta=1)
+        self.assertEqual(sorted(p.name for p in self.here.iterdir()), ["figure.pdf", "figure.png", "figure.svg"])
+        self.assertIn("3 plots do not fit into 1 x 2 panels", self.forage(*figure[:-1], "1x2", status=2).stderr)
+        self.assertIn("write ROWSxCOLUMNS", self.forage(*figure[:-1], "2by2", status=2).stderr)
 
     @unittest.skipUnless(shutil.which("dot"), "Graphviz is not installed")
     def test_the_graph_is_drawn(self):

@@ -142,7 +142,7 @@ std::string describe(const SystemFile& file, const std::string& format, std::uin
     Diagnostics diagnostics;
     const auto compiled = compile(file, {}, seed, diagnostics);
     throw_errors(diagnostics);
-    return in_format(describe(file.model, &*compiled), format);
+    return in_format(describe(file.model, *file.types, &*compiled), format);
 }
 
 SynapseTable synapses(const SystemFile& file, const std::string& id, std::uint64_t seed) {

@@ -12,7 +12,7 @@ int describe(const DescribeOptions& options) {
     const auto compiled = compile(loaded, options.input.seed, diagnostics);
     print(stderr, "{}", format(diagnostics));
     if (!compiled) return bad_input;
-    print("{}", in_format(forage::describe(loaded->system, &*compiled), options.format));
+    print("{}", in_format(forage::describe(loaded->system, loaded->registry, &*compiled), options.format));
     return fine;
 }
 

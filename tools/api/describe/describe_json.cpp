@@ -143,7 +143,7 @@ json describe_system(const Run& run) { return describe_system(run.system(), run.
 // What papers and terminals read of a system (system_description.h) is in each object; the rest is for
 // showing it: places, colours, states, and ids instead of names.
 json describe_system(const model::System& system, const Registry& registry, const Run* run) {
-    const SystemDescription said = describe(system, run ? &run->simulation() : nullptr);
+    const SystemDescription said = describe(system, registry, run ? &run->simulation() : nullptr);
     json processes = json::array(), links = json::array();
     for (std::size_t i = 0; i < system.processes.size(); ++i) {
         const auto& p = system.processes[i];

@@ -1,4 +1,4 @@
-#include <map>
+#include <algorithm>
 #include <stdexcept>
 
 #include <fmt/format.h>
@@ -9,25 +9,17 @@
 namespace forage {
 namespace {
 
-std::string number_of(std::size_t n, std::string_view what, std::string_view ending = "s") {
-    return fmt::format("{} {}{}", n, what, n == 1 ? "" : ending);
-}
-
-std::string size_of(const GroupDescription& group) {
-    return group.cells == group.width * group.height
-               ? fmt::format("{} x {}", group.width, group.height)
-               : fmt::format("{} of {} x {}", group.cells, group.width, group.height);
-}
-
+/// The values that the item sets; the others are the defaults of its type.
 std::string parameters_of(const TypeDescription& type) {
     std::string out;
-    for (const auto& [name, value] : type.parameters)
-        out += fmt::format("{}{}={}", out.empty() ? "" : ", ", name, value);
+    for (const auto& v : type.values)
+        if (v.is_set) out += fmt::format("{}{}={}", out.empty() ? "" : ", ", v.name, v.value);
     return out;
 }
 
 std::string with_parameters(const TypeDescription& type) {
-    return type.parameters.empty() ? type.type : fmt::format("{} ({})", type.type, parameters_of(type));
+    const std::string values = parameters_of(type);
+    return values.empty() ? type.type : fmt::format("{} ({})", type.type, values);
 }
 
 std::string text_of(const ConstantDescription& c) {
@@ -46,110 +38,14 @@ std::string module_of(const ProcessDescription& process) {
     return process.module.type + (process.module_enabled ? "" : ", switched off");
 }
 
-/// `text` with each of the characters in `special` replaced by what `replacement` makes of it.
-std::string escape(const std::string& text, std::string_view special, const auto& replacement) {
-    std::string out;
-    for (const char c : text)
-        if (special.find(c) != std::string_view::npos)
-            out += replacement(c);
-        else
-            out += c;
-    return out;
-}
-
-std::string markdown_cell(const std::string& text) {
-    return escape(text, "|\\\n*_`<", [](char c) { return c == '\n' ? " " : std::string("\\") + c; });
-}
-
-std::string latex_text(const std::string& text) {
-    static const std::map<char, const char*> named = {
-        {'\\', "\\textbackslash{}"}, {'^', "\\textasciicircum{}"},
-        {'~', "\\textasciitilde{}"}, {'<', "\\textless{}"},
-        {'>', "\\textgreater{}"},    {'|', "\\textbar{}"},
-        {'"', "\\textquotedbl{}"},   {'\n', " "}};
-    return escape(text, "\\{}$&#^_~%\n<>|\"/", [](char c) {
-        const auto it = named.find(c);
-        return it == named.end() ? std::string("\\") + c : it->second;
-    });
-}
-
 std::string dot_text(const std::string& text) {
-    return '"' +
-           escape(text, "\"\\\n",
-                  [](char c) { return c == '\n' ? std::string("\\n") : std::string("\\") + c; }) +
-           '"';
-}
-
-/// A row of a table: the escaped cells with `between` among them, between `before` and `after`.
-std::string row(const std::vector<std::string>& cells, std::string (*escaped)(const std::string&),
-                std::string_view before, std::string_view between, std::string_view after) {
-    std::string out(before);
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-        if (i) out += between;
-        out += escaped(cells[i]);
-    }
-    return out + std::string(after);
-}
-
-struct Table {
-    std::string title;
-    std::vector<std::string> head;
-    std::vector<double> widths;  ///< of the columns, in widths of the text; 0: as wide as the content
-    std::vector<std::vector<std::string>> rows;
-};
-
-std::vector<Table> tables(const SystemDescription& d) {
-    Table summary{"Summary", {"", ""}, {0, 0.7}, {}};
-    summary.rows = {
-        {"System", d.name},
-        {"Size",
-         fmt::format("{}, {}, {}, {}, {}", number_of(d.processes.size(), "process", "es"),
-                     number_of(d.groups(), "group"), number_of(d.cells(), "cell"),
-                     number_of(d.connections.size(), "connection"), number_of(d.synapses(), "synapse"))},
-        {"Clock", d.cycles_per_second > 0 ? fmt::format("{} cycles per second", d.cycles_per_second)
-                                          : "as fast as possible"}};
-    Table constants{"Constants", {"Constant", "Value", "Unit", "Meaning"}, {0, 0, 0, 0.5}, {}};
-    for (const auto& c : d.constants) constants.rows.push_back({c.name, to_text(c.value), c.unit, c.doc});
-    Table types{"Types", {"Type", "Equations", "Constants and first values"}, {0, 0.5, 0.3}, {}};
-    for (const auto& t : d.types) {
-        std::string equations, values;
-        for (const auto& line : t.equations) equations += (equations.empty() ? "" : "; ") + line;
-        for (const auto& c : t.constants)
-            values += fmt::format("{}{} = {}{}", values.empty() ? "" : ", ", c.name, to_text(c.value),
-                                  c.unit.empty() ? "" : " " + c.unit);
-        for (const auto& [name, value] : t.states)
-            values += fmt::format("{}{} = {}", values.empty() ? "" : ", ", name, value);
-        types.rows.push_back({fmt::format("{} ({})", t.name, t.kind), equations, values});
-    }
-    Table modules{"Modules", {"Process", "Module", "Reads", "Writes"}, {0, 0.3, 0.22, 0.22}, {}};
-    Table groups{"Populations", {"Group", "Size", "Neuron", "Parameters"}, {0.28, 0, 0, 0.32}, {}};
-    Table connections{"Connections",
-                      {"Connection", "Source", "Target", "Kind", "Synapses", "Pattern", "Synapse"},
-                      {0.14, 0.13, 0.13, 0, 0, 0.19, 0.19},
-                      {}};
-    for (const auto& p : d.processes) {
-        if (!p.module.type.empty()) {
-            std::string lists[2];
-            for (const auto& port : p.ports)
-                lists[port.writes] += (lists[port.writes].empty() ? "" : ", ") + port.group;
-            std::string module = module_of(p);
-            if (!p.module.parameters.empty()) module += " (" + parameters_of(p.module) + ")";
-            modules.rows.push_back({p.name, module, lists[0], lists[1]});
-        }
-        for (const auto& g : p.groups)
-            groups.rows.push_back({g.path, size_of(g), g.neuron.type, parameters_of(g.neuron)});
-    }
-    for (const auto& c : d.connections) {
-        std::string pattern = fmt::format("{}; {}", c.pattern, c.arborization);
-        if (c.attenuation != "none") pattern += "; attenuation " + c.attenuation;
-        if (c.delay != "none") pattern += "; delay " + c.delay;
-        connections.rows.push_back({c.name, c.source, c.target, c.kind, std::to_string(c.synapses), pattern,
-                                    with_parameters(c.synapse)});
-    }
-    std::vector<Table> out{std::move(summary)};
-    for (Table* t : {&constants, &types, &modules, &groups, &connections})
-        if (!t->rows.empty()) out.push_back(std::move(*t));
-    return out;
+    std::string out = "\"";
+    for (const char c : text)
+        if (c == '\n')
+            out += "\\n";
+        else
+            out += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+    return out + "\"";
 }
 
 nlohmann::ordered_json json_of(const std::vector<ConstantDescription>& constants) {
@@ -169,8 +65,12 @@ nlohmann::ordered_json json_of(const DeclarationDescription& type) {
 
 nlohmann::ordered_json json_of(const TypeDescription& type) {
     nlohmann::ordered_json parameters = nlohmann::ordered_json::object();
-    for (const auto& [name, value] : type.parameters) parameters[name] = value;
-    return {{"type", type.type}, {"parameters", parameters}};
+    nlohmann::ordered_json units = nlohmann::ordered_json::object();
+    for (const auto& v : type.values) {
+        parameters[v.name] = v.value;
+        if (!v.unit.empty()) units[v.name] = v.unit;
+    }
+    return {{"type", type.type}, {"parameters", parameters}, {"units", units}};
 }
 
 }  // namespace
@@ -182,8 +82,9 @@ std::string as_text(const SystemDescription& d) {
                     number_of(d.connections.size(), "connection"), number_of(d.synapses(), "synapse"));
     if (!d.constants.empty()) out += "\nConstants\n";
     for (const auto& c : d.constants) out += "    " + text_of(c) + "\n";
-    if (!d.types.empty()) out += "\nTypes\n";
+    if (std::ranges::any_of(d.types, &DeclarationDescription::declared)) out += "\nTypes\n";
     for (const auto& t : d.types) {
+        if (!t.declared) continue;
         out += fmt::format("    {} ({}){}{}\n", t.name, t.kind, t.doc.empty() ? "" : ": ", t.doc);
         for (const auto& line : t.equations) out += "      " + line + "\n";
         for (const auto& c : t.constants) out += "        " + text_of(c) + "\n";
@@ -216,37 +117,6 @@ std::string as_text(const SystemDescription& d) {
     return out;
 }
 
-std::string as_markdown(const SystemDescription& d) {
-    std::string out = "# " + markdown_cell(d.name) + "\n";
-    if (!d.notes.empty()) out += "\n" + d.notes + "\n";
-    for (const auto& t : tables(d)) {
-        out += fmt::format("\n## {}\n\n", t.title) + row(t.head, markdown_cell, "| ", " | ", " |\n") + "|";
-        for (std::size_t i = 0; i < t.head.size(); ++i) out += "---|";
-        out += "\n";
-        for (const auto& cells : t.rows) out += row(cells, markdown_cell, "| ", " | ", " |\n");
-    }
-    return out;
-}
-
-std::string as_latex(const SystemDescription& d) {
-    std::string out =
-        "% \\usepackage[T1]{fontenc}\n% \\usepackage{longtable,booktabs,array}\n"
-        "{\\footnotesize\\setlength\\tabcolsep{3pt}\\raggedright\n";
-    for (const auto& t : tables(d)) {
-        std::string columns;
-        for (const double width : t.widths)
-            columns +=
-                width > 0 ? fmt::format(">{{\\raggedright\\arraybackslash}}p{{{}\\linewidth}}", width) : "l";
-        out += fmt::format(
-            "\\begin{{longtable}}{{{}}}\n\\multicolumn{{{}}}{{l}}{{\\textbf{{{}}}}}\\\\\n\\toprule\n",
-            columns, t.head.size(), t.title);
-        if (!t.head.back().empty()) out += row(t.head, latex_text, "", " & ", " \\\\\n\\midrule\n");
-        for (const auto& cells : t.rows) out += row(cells, latex_text, "", " & ", " \\\\\n");
-        out += "\\bottomrule\n\\end{longtable}\n";
-    }
-    return out + "}\n";
-}
-
 std::string as_dot(const SystemDescription& d) {
     std::string out = fmt::format(
         "digraph {} {{\n  rankdir=LR;\n  node [shape=box, fontname=\"sans-serif\"];\n"
@@ -275,7 +145,8 @@ std::string as_dot(const SystemDescription& d) {
 std::string as_json(const SystemDescription& d) {
     using Json = nlohmann::ordered_json;
     Json processes = Json::array(), connections = Json::array(), types = Json::array();
-    for (const auto& t : d.types) types.push_back(json_of(t));
+    for (const auto& t : d.types)
+        if (t.declared) types.push_back(json_of(t));
     for (const auto& p : d.processes) {
         Json groups = Json::array(), module = nullptr;
         for (const auto& g : p.groups)
@@ -310,6 +181,7 @@ std::string as_json(const SystemDescription& d) {
                                {"form", c.form},
                                {"ns_per_cycle", c.cost},
                                {"pattern", c.pattern},
+                               {"cells", c.cells},
                                {"arborization", c.arborization},
                                {"attenuation", c.attenuation},
                                {"delay", c.delay},

@@ -1,6 +1,9 @@
 #include "tools/api/describe/system_description.h"
 
+#include <algorithm>
 #include <map>
+#include <ranges>
+#include <string_view>
 #include <unordered_map>
 #include <variant>
 
@@ -8,6 +11,7 @@
 
 #include "core/model/constants.h"
 #include "core/model/lookup.h"
+#include "tools/api/describe/shipped_equations.h"
 
 namespace forage {
 namespace {
@@ -19,15 +23,49 @@ struct Cases : F... {
 template <class... F>
 Cases(F...) -> Cases<F...>;
 
-TypeDescription describe(const model::TypeUse& use) {
+/// The text of a file as the value that the type reads.
+std::string value_text(const std::string& text, ParameterKind kind) {
+    const auto value = parse_parameter(kind, text);
+    return value ? to_text(*value) : text;
+}
+
+/// What a use of a type computes with. `type` and `declared` are null when there is no such type.
+template <class Type>
+TypeDescription describe(const model::TypeUse& use, const Type* type,
+                         const model::TypeDeclaration* declared = nullptr) {
     TypeDescription out{use.type, {}};
-    for (const auto& s : use.settings) out.parameters.emplace_back(s.name, s.in_force(ParameterKind::real));
+    if (type)
+        for (const Parameter& p : type->parameters) {
+            const auto* s = use.setting(p.name);
+            const bool is_set =
+                std::ranges::any_of(use.settings, [&](const auto& own) { return own.name == p.name; });
+            out.values.push_back({p.name,
+                                  s ? value_text(s->in_force(p.kind), p.kind) : to_text(p.default_value),
+                                  p.unit, p.doc, is_set});
+        }
+    const auto start = [&](const std::string& state, std::string value, bool is_set) {
+        ValueDescription v{state + " at start", std::move(value), "", "", is_set};
+        if (declared)
+            for (const auto& s : declared->states)
+                if (s.name == state) v.unit = s.unit, v.doc = s.doc;
+        out.values.push_back(std::move(v));
+    };
     for (const auto& i : use.initial)
-        out.parameters.emplace_back(
-            i.state + " at start",
-            i.file.empty() ? i.value
-                           : fmt::format("{}{}", i.file, i.column.empty() ? "" : ", column " + i.column));
+        start(i.state,
+              i.file.empty() ? i.value
+                             : fmt::format("{}{}", i.file, i.column.empty() ? "" : ", column " + i.column),
+              true);
+    if (declared)
+        for (const auto& s : declared->states)
+            if (std::ranges::none_of(use.initial, [&](const auto& i) { return i.state == s.name; }))
+                start(s.name, s.value.empty() ? "0" : s.value, false);
     return out;
+}
+
+const model::TypeDeclaration* find_declaration(const std::vector<model::TypeDeclaration>& all,
+                                               std::string_view name) {
+    const auto found = std::ranges::find(all, name, &model::TypeDeclaration::name);
+    return found == all.end() ? nullptr : &*found;
 }
 
 std::string describe(const model::Population& population, std::string_view of) {
@@ -67,6 +105,52 @@ std::string describe(const model::Pattern& pattern) {
                             [](const model::Weights& w) {
                                 return fmt::format("{} of weights{}", w.is_list ? "list" : "matrix",
                                                    w.file.empty() ? "" : " in " + w.file);
+                            }},
+                      pattern);
+}
+
+/// Cells, with a range for neighbours in a row: "(1..3, 1) (5, 2)".
+std::string describe(const std::vector<model::Point>& points) {
+    std::string out;
+    for (std::size_t i = 0; i < points.size();) {
+        std::size_t end = i + 1;
+        while (end < points.size() && points[end].y == points[i].y && points[end].x == points[end - 1].x + 1)
+            ++end;
+        out += (out.empty() ? "" : " ") +
+               (end == i + 1 ? fmt::format("({}, {})", points[i].x, points[i].y)
+                             : fmt::format("({}..{}, {})", points[i].x, points[end - 1].x, points[i].y));
+        i = end;
+    }
+    return out;
+}
+
+std::string list_of(const model::Population& population, std::string_view of) {
+    const auto* list = std::get_if<model::List>(&population);
+    return list ? fmt::format("{}: {}", of, describe(list->points)) : std::string();
+}
+
+/// The cells that a pattern lists: tuples, listed populations, or the numbers of weights.
+std::string cells_of(const model::Pattern& pattern) {
+    const auto of_populations = [](const auto& p) {
+        const auto source = list_of(p.source, "source"), target = list_of(p.target, "target");
+        return source + (source.empty() || target.empty() ? "" : "; ") + target;
+    };
+    return std::visit(Cases{[&](const model::MappedPattern& p) { return of_populations(p); },
+                            [&](const model::ForeachPattern& p) { return of_populations(p); },
+                            [](const model::TuplesPattern& p) {
+                                std::string out;
+                                for (const auto& t : p.tuples)
+                                    out += fmt::format("{}{} to {}", out.empty() ? "" : "; ",
+                                                       describe(t.sources), describe(t.targets));
+                                return out;
+                            },
+                            [](const model::Weights& w) {
+                                std::string out;  // a row per line, as "; "
+                                for (const auto line : std::views::split(w.text, '\n')) {
+                                    const auto row = model::trim(std::string_view(line.begin(), line.end()));
+                                    if (!row.empty()) out += (out.empty() ? "" : "; ") + std::string(row);
+                                }
+                                return out;
                             }},
                       pattern);
 }
@@ -117,11 +201,14 @@ std::string name_of(InputKind kind) {
 /// The paths of groups by their ids.
 using Paths = std::unordered_map<std::string_view, std::string>;
 
-ProcessDescription describe(const model::Process& process, const Paths& paths) {
+ProcessDescription describe(const model::Process& process, const model::System& system,
+                            const Registry& registry, const Paths& paths) {
     ProcessDescription out{.id = process.id,
                            .name = std::string(model::trim(process.name)),
                            .file = process.path,
-                           .module = process.module ? describe(*process.module) : TypeDescription{},
+                           .module = process.module
+                                         ? describe(*process.module, registry.module(process.module->type))
+                                         : TypeDescription{},
                            .module_enabled = process.module_enabled,
                            .ports = {},
                            .groups = {},
@@ -139,7 +226,8 @@ ProcessDescription describe(const model::Process& process, const Paths& paths) {
                               .width = shape.width,
                               .height = shape.height,
                               .cells = shape.cells,
-                              .neuron = describe(g.neuron),
+                              .neuron = describe(g.neuron, registry.neuron(g.neuron.type),
+                                                 find_declaration(system.neuron_types, g.neuron.type)),
                               .notes = g.note.value_or("")});
     }
     return out;
@@ -147,13 +235,24 @@ ProcessDescription describe(const model::Process& process, const Paths& paths) {
 
 DeclarationDescription describe(const model::TypeDeclaration& type, std::string kind,
                                 model::Constants& constants) {
-    DeclarationDescription out{std::move(kind), type.name, type.doc, {}, {}, model::equation_lines(type)};
-    for (const auto& c : type.constants) {
+    DeclarationDescription out{std::move(kind), type.name, "", type.doc, true, {}, {}, {}};
+    for (const auto& c : type.constants)
         out.constants.push_back({c.name, constants.value(c.value, nullptr).value_or(0), c.unit, c.doc});
-    }
     for (const auto& s : type.states)
         if (!s.value.empty()) out.states.emplace_back(s.name, s.value);
+    out.equations = model::equation_lines(type);
     return out;
+}
+
+/// Adds a type that a system uses, unless it is among `all`.
+template <class Type>
+void add_used(std::vector<DeclarationDescription>& all, std::string_view kind, const std::string& name,
+              const Type* type) {
+    if (std::ranges::any_of(all, [&](const auto& t) { return t.kind == kind && t.name == name; })) return;
+    DeclarationDescription out{std::string(kind), name, "", "", false, {}, {}, {}};
+    if (type) out.label = type->label, out.doc = type->doc;
+    out.equations = shipped_equations(name);
+    all.push_back(std::move(out));
 }
 
 }  // namespace
@@ -177,7 +276,18 @@ std::size_t SystemDescription::synapses() const {
     return out;
 }
 
-SystemDescription describe(const model::System& system, const engine::Simulation* compiled) {
+std::string number_of(std::size_t n, std::string_view what, std::string_view ending) {
+    return fmt::format("{} {}{}", n, what, n == 1 ? "" : ending);
+}
+
+std::string size_of(const GroupDescription& group) {
+    return group.cells == group.width * group.height
+               ? fmt::format("{} x {}", group.width, group.height)
+               : fmt::format("{} of {} x {}", group.cells, group.width, group.height);
+}
+
+SystemDescription describe(const model::System& system, const Registry& registry,
+                           const engine::Simulation* compiled) {
     SystemDescription out{.name = std::string(model::trim(system.name)),
                           .author = system.author,
                           .date = system.date,
@@ -194,12 +304,21 @@ SystemDescription describe(const model::System& system, const engine::Simulation
     }
     for (const auto& t : system.neuron_types) out.types.push_back(describe(t, "neuron", constants));
     for (const auto& t : system.synapse_types) out.types.push_back(describe(t, "synapse", constants));
+    for (const auto& p : system.processes)
+        for (const auto& g : p.groups)
+            add_used(out.types, "neuron", g.neuron.type, registry.neuron(g.neuron.type));
+    for (const auto& c : system.connections) {
+        const auto type = model::synapse_of(c).type;
+        add_used(out.types, "synapse", type, registry.synapse(type));
+    }
+    for (const auto& p : system.processes)
+        if (p.module) add_used(out.types, "module", p.module->type, registry.module(p.module->type));
     Paths paths;
     const auto in_order = model::group_paths(system);
     auto next = in_order.begin();
     for (const auto& p : system.processes)
         for (const auto& g : p.groups) paths.emplace(g.id, *next++);
-    for (const auto& p : system.processes) out.processes.push_back(describe(p, paths));
+    for (const auto& p : system.processes) out.processes.push_back(describe(p, system, registry, paths));
 
     std::map<std::string_view, int> numbers;
     if (compiled)
@@ -214,6 +333,7 @@ SystemDescription describe(const model::System& system, const engine::Simulation
     for (const auto& c : system.connections) {
         const auto number = numbers.find(c.id);
         const bool built = number != numbers.end();
+        const auto synapse = model::synapse_of(c);
         out.connections.push_back(
             {.id = c.id,
              .name = std::string(model::trim(c.name)),
@@ -229,7 +349,9 @@ SystemDescription describe(const model::System& system, const engine::Simulation
                                                                                : describe(c.arborization),
              .attenuation = describe(c.attenuation),
              .delay = describe(c.delay),
-             .synapse = describe(model::synapse_of(c)),
+             .cells = cells_of(c.pattern),
+             .synapse = describe(synapse, registry.synapse(synapse.type),
+                                 find_declaration(system.synapse_types, synapse.type)),
              .notes = c.note.value_or("")});
     }
     return out;

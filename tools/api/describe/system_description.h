@@ -4,18 +4,27 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "core/engine/simulation.h"
 #include "core/model/system.h"
+#include "core/types/registry.h"
 
 namespace forage {
 
-/// A type in use, with the parameters that the system sets: their text in the file, or what a formula gives.
+/// A value of a parameter, a constant, or a state before the first cycle.
+struct ValueDescription {
+    std::string name;  ///< of a state: "v at start"
+    std::string value, unit, doc;
+    bool is_set = false;  ///< by the item that uses the type; otherwise the type's default is in force
+};
+
+/// A type in use, with the values that are in force: all parameters, and the declared states at start.
 struct TypeDescription {
     std::string type;
-    std::vector<std::pair<std::string, std::string>> parameters;
+    std::vector<ValueDescription> values;
 };
 
 struct GroupDescription {
@@ -52,6 +61,7 @@ struct ConnectionDescription {
     /// Which cells are paired, how a pair spreads into synapses, and how attenuation and delay follow from
     /// the distance; "none" for attenuations and delays that are 0.
     std::string pattern, arborization, attenuation, delay;
+    std::string cells;  ///< the listed cells of the pattern; empty when it lists none
     TypeDescription synapse;
     std::string notes;
 };
@@ -62,12 +72,15 @@ struct ConstantDescription {
     std::string unit, doc;  ///< may be empty
 };
 
-/// A type that the system declares.
+/// A type that the system declares or uses.
 struct DeclarationDescription {
-    std::string kind, name, doc;  ///< "neuron" or "synapse"
+    std::string kind;  ///< "neuron", "synapse" or "module"
+    std::string name, label, doc;
+    bool declared = false;  ///< by the system, which the three following members are for
     std::vector<ConstantDescription> constants;
     std::vector<std::pair<std::string, std::string>> states;  ///< those with a value, as the file writes it
-    std::vector<std::string> equations;                       ///< a line each
+    /// A line each; of types that ship, shipped_equations(). Empty when they are not known.
+    std::vector<std::string> equations;
 };
 
 struct SystemDescription {
@@ -82,15 +95,21 @@ struct SystemDescription {
 };
 
 /// Describes a system, and what was compiled from it: a connection that is not in `compiled`, which may be
-/// null, is "not built" and has no synapses.
-SystemDescription describe(const model::System& system, const engine::Simulation* compiled);
+/// null, is "not built" and has no synapses. `registry` has the types of the system.
+SystemDescription describe(const model::System& system, const Registry& registry,
+                           const engine::Simulation* compiled);
+
+/// "1 group", "2 groups".
+std::string number_of(std::size_t n, std::string_view what, std::string_view ending = "s");
+/// "8 x 1", or "5 of 8 x 1" of a sparse group.
+std::string size_of(const GroupDescription& group);
 
 /// The description for a terminal: each connection below its source.
 std::string as_text(const SystemDescription& description);
-/// Tables in Markdown: a summary, constants, types, modules, groups, connections.
+/// The tables of Nordlie, Gewaltig and Plesser (2009, PLoS Comput. Biol. 5:e1000456) in Markdown, with
+/// typeset equations: a summary, constants, populations, connections, and each type with the values in force.
 std::string as_markdown(const SystemDescription& description);
-/// The tables of Nordlie, Gewaltig and Plesser (2009, PLoS Comput. Biol. 5:e1000456) as a LaTeX fragment
-/// to include: a summary, populations, connections. It needs the packages longtable and booktabs.
+/// The same as a LaTeX fragment to include. It needs the packages amsmath, longtable, booktabs and array.
 std::string as_latex(const SystemDescription& description);
 /// A graph for Graphviz: groups in a cluster per process, connections in the colours of the diagram.
 std::string as_dot(const SystemDescription& description);
