@@ -29,18 +29,21 @@ struct Measure {
         minimum,   ///< smallest value of a quantity after any cycle
         maximum,   ///< largest value of a quantity after any cycle
         robot,     ///< one of robot_quantities
+        share,     ///< fraction of the cycles, outside resets, after which a condition held, 0..1
+        formula,   ///< arithmetic with the measures above it, by their names
     };
     std::string name;
     Kind kind = Kind::success;
-    Expression what;                    ///< the condition or quantity
+    Expression what;                    ///< the condition, quantity or formula
     Expression of;                      ///< the name of the robot; empty: the first robot
     std::optional<std::uint64_t> last;  ///< only this many trials at the end are counted; empty: all
     Location at;
 };
 
 /// The names of the kinds of measures, in their order.
-inline constexpr std::array measure_kinds = {"success", "duration", "distance", "first",   "final", "trials",
-                                             "cycles",  "mean",     "minimum",  "maximum", "robot"};
+inline constexpr std::array measure_kinds = {"success", "duration", "distance", "first",   "final",
+                                             "trials",  "cycles",   "mean",     "minimum", "maximum",
+                                             "robot",   "share",    "formula"};
 /// Reads of which trials a measure takes the mean, "all" or "last 100", from `what` to `last`. Reports an
 /// error for another text. Does nothing for measures of something else.
 void read_trials(Measure& measure, Diagnostics& diagnostics);
@@ -48,6 +51,7 @@ void read_trials(Measure& measure, Diagnostics& diagnostics);
 struct RecordingSpec {
     Expression column;
     std::uint64_t every = 1;  ///< cycles between two rows
+    std::string format = {};  ///< csv, npy, npz, h5 or dat; empty: that of the run
 };
 
 /// A parameter that takes each of several values in turn, or several systems that take turns.

@@ -109,7 +109,8 @@ std::vector<RecordingFile> recorded_files(const std::vector<model::RecordingSpec
             if (!source) continue;
             const observe::Recorded& what = source->what();
             if (!seen.insert(file + "\n" + what.name + "\n" + what.group_id).second) continue;  // duplicate
-            const FormatName& format = *format_of(file.empty() ? "x." + options.format : file);
+            const FormatName& format = *format_of(
+                file.empty() ? "x." + (asked.format.empty() ? options.format : asked.format) : file);
             const bool several = observe::holds_several(format.format);
             std::string stem = file_name(what.name), archive;
             if (format.archive) archive = file.empty() ? "recording.npz" : file;

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/separated.h"
+#include "core/model/constants.h"
 #include "core/run/environment.h"
 
 namespace forage {
@@ -16,7 +18,7 @@ bool is_of_trials(Kind kind) {
     return kind == Kind::success || kind == Kind::duration || kind == Kind::distance;
 }
 
-bool counts(Kind kind) { return kind == Kind::trials || kind == Kind::cycles; }
+bool counts(Kind kind) { return kind == Kind::trials || kind == Kind::cycles || kind == Kind::share; }
 
 bool is_over_cycles(Kind kind) {
     return kind == Kind::mean || kind == Kind::minimum || kind == Kind::maximum;
@@ -41,13 +43,15 @@ RunMeasures::RunMeasures(std::span<const model::Measure> measures, const engine:
                          Environment* environment, Diagnostics& diagnostics) {
     const bool trials = environment && environment->has_trials(0);
     for (const auto& m : measures) {
-        Entry e{m, {}, {}, {}, {}};
+        Entry e{m, {}, {}, {}, {}, {}};
         if (m.kind == Kind::first || counts(m.kind)) {
             e.condition =
                 observe::parse_condition(layout, trials, m.what.text, "measure", diagnostics, m.what.at);
             ++waiting_;
         } else if (m.kind == Kind::robot) {
             e.robot = RobotMeasure::make(m, environment, diagnostics);
+        } else if (m.kind == Kind::formula) {
+            read_formula(e, diagnostics);
         } else if (m.kind == Kind::final || is_over_cycles(m.kind)) {
             e.quantity =
                 observe::parse_quantity(layout, trials, m.what.text, "measure", diagnostics, m.what.at);
@@ -60,6 +64,32 @@ RunMeasures::RunMeasures(std::span<const model::Measure> measures, const engine:
                               "'forage world FILE' tells what is in a world");
         follows_ = follows_ || m.kind == Kind::robot || is_over_cycles(m.kind);
         entries_.push_back(std::move(e));
+    }
+}
+
+void RunMeasures::read_formula(Entry& entry, Diagnostics& diagnostics) const {
+    const model::Expression& what = entry.spec.what;
+    const auto report = [&](std::size_t at, const std::string& message, const std::string& hint) {
+        diagnostics.error(model::inside(what.at, at),
+                          fmt::format("measure '{}': {}", entry.spec.name, message), hint);
+    };
+    std::vector<std::string> usable;
+    for (const auto& e : entries_)
+        if (is_formula_name(e.spec.name)) usable.push_back(e.spec.name);
+    try {
+        entry.formula.emplace(what.text);
+    } catch (const FormulaError& e) {
+        return report(e.at, e.what(), e.hint);
+    }
+    for (const auto& node : entry.formula->nodes()) {
+        if (node.op != Formula::Op::name) continue;
+        const std::string& name = entry.formula->name(node);
+        if (std::ranges::find(usable, name) != usable.end()) continue;
+        const auto meant = nearest(name, usable);
+        report(node.at, fmt::format("there is no measure '{}' above it", name),
+               !meant.empty()   ? fmt::format("did you mean '{}'?", meant)
+               : usable.empty() ? "a formula uses measures above it, whose names are letters, digits and _"
+                                : fmt::format("above it are '{}'", separated(usable, "', '")));
     }
 }
 
@@ -92,6 +122,9 @@ void RunMeasures::before_cycle(RunView& run) {
     const bool resetting = run.environment && run.environment->resetting(0);
     for (auto& e : entries_) {
         const bool counted = counts(e.spec.kind);
+        // A share is one of cycles, after each of which the condition is checked.
+        if (e.spec.kind == Kind::share && (resetting || run.time.cycle == 0)) continue;
+        if (e.spec.kind == Kind::share) ++e.checked;
         if (!e.condition || (counted ? resetting : e.first.has_value()) ||
             !e.condition->holds(run.simulation, run.time))
             continue;
@@ -119,13 +152,14 @@ void RunMeasures::after_cycle(RunView& run) {
 
 void RunMeasures::checkpoint(Archive& archive) {
     for (auto& e : entries_) {
-        archive(e.first, e.cycles, e.trials, e.last_trial, e.values, e.sum, e.low, e.high);
+        archive(e.first, e.cycles, e.checked, e.trials, e.last_trial, e.values, e.sum, e.low, e.high);
         if (e.robot) e.robot->checkpoint(archive);
     }
     archive(waiting_);
 }
 
-std::optional<double> RunMeasures::value(Entry& e, RunView& run) const {
+std::optional<double> RunMeasures::value(Entry& e, RunView& run,
+                                         std::span<const std::optional<double>> known) const {
     switch (e.spec.kind) {
         case Kind::success:
         case Kind::duration:
@@ -138,6 +172,8 @@ std::optional<double> RunMeasures::value(Entry& e, RunView& run) const {
         }
         case Kind::cycles:
             return static_cast<double>(e.cycles);
+        case Kind::share:
+            return static_cast<double>(e.cycles) / static_cast<double>(e.checked);
         case Kind::first:
             return e.first;
         case Kind::final:
@@ -150,6 +186,13 @@ std::optional<double> RunMeasures::value(Entry& e, RunView& run) const {
             return std::isfinite(e.sum) ? e.high : e.sum;
         case Kind::robot:
             return e.robot->value(*run.environment);
+        case Kind::formula:
+            // A measure without a number is NaN here, so what needs it has none either.
+            return e.formula->value([&](const std::string& name, std::size_t) {
+                const auto used = std::ranges::find(
+                    entries_, name, [](const Entry& other) -> const auto& { return other.spec.name; });
+                return known[static_cast<std::size_t>(used - entries_.begin())].value_or(std::nan(""));
+            });
     }
     return std::nullopt;
 }
@@ -158,7 +201,7 @@ std::vector<std::optional<double>> RunMeasures::values(RunView& run) {
     before_cycle(run);  // a condition may hold after the last cycle
     std::vector<std::optional<double>> out;
     for (auto& e : entries_) {
-        auto number = value(e, run);
+        auto number = value(e, run, out);
         if (number && !std::isfinite(*number)) number.reset();
         out.push_back(number);
     }

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/formula/formula.h"
 #include "core/model/experiment.h"
 #include "core/observe/condition.h"
 #include "core/observe/observer.h"
@@ -39,16 +40,22 @@ class RunMeasures final : public Observer {
     struct Entry {
         model::Measure spec;
         std::optional<observe::Condition> condition;
+        std::optional<Formula> formula;
         std::optional<observe::Quantity> quantity;
         std::optional<RobotMeasure> robot;
         std::optional<double> first;  ///< the cycle before which the condition first held
         std::uint64_t cycles = 0;     ///< how often the condition has held, without resets
+        std::uint64_t checked = 0;    ///< of a share: how often it was checked
         int trials = 0;               ///< in how many trials
         int last_trial = 0;           ///< the last of these trials
         std::uint64_t values = 0;     ///< how often the quantity was read, with its sum and its extremes
         double sum = 0, low = std::numeric_limits<double>::infinity(), high = -low;
     };
-    std::optional<double> value(Entry& entry, RunView& run) const;
+    /// Reads the formula of a measure, which uses the measures before it. Reports mistakes.
+    void read_formula(Entry& entry, Diagnostics& diagnostics) const;
+    /// The value of a measure, of which formulas use the `known` ones before it.
+    std::optional<double> value(Entry& entry, RunView& run,
+                                std::span<const std::optional<double>> known) const;
 
     std::vector<Entry> entries_;
     /// Conditions that have to be checked: those that are counted, and the others until they hold.

@@ -37,12 +37,15 @@ inline std::vector<AttributeRule> kinds_of_measures(std::string_view doc_of_all 
         "a quantity as in 'final': its smallest value over all cycles",
         "a quantity as in 'final': its largest value over all cycles",
         "what a robot did, in all trials together",
+        "a condition: share of the cycles in which it held",
+        "arithmetic with the measures above, by their names: 'reached / tried', 'max(a, b) - 1'",
         "with 'robot': its name; without it, the first robot"};
     const auto doc = [&](std::size_t i) { return std::string(doc_of_all.empty() ? docs[i] : doc_of_all); };
     std::vector<AttributeRule> out;
     for (const char* kind : model::measure_kinds) out.push_back(alternative(text(kind, doc(out.size()))));
-    out.back().value.kind = ValueKind::choice;
-    out.back().value.choices = {model::robot_quantities.begin(), model::robot_quantities.end()};
+    auto& robot = out[static_cast<std::size_t>(model::Measure::Kind::robot)].value;
+    robot.kind = ValueKind::choice;
+    robot.choices = {model::robot_quantities.begin(), model::robot_quantities.end()};
     out.push_back(text("of", doc(out.size())));
     return out;
 }
@@ -114,7 +117,9 @@ inline auto experiment_elements() {
         element<RecordingSpec>(
             "record", "a table of every run", "",
             {{&RecordingSpec::column, required(text("column", "'Process/Group' or 'Process/Group:state'"))},
-             {&RecordingSpec::every, amount("every", "only each k-th cycle")}}),
+             {&RecordingSpec::every, amount("every", "only each k-th cycle")},
+             {&RecordingSpec::format,
+              choice("format", "of the file; without it, csv", {"csv", "npy", "npz", "h5", "dat"})}}),
         element<Expression>(
             "plot", "a picture of every run", "",
             {{&Expression::text,

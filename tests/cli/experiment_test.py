@@ -124,6 +124,47 @@ class Results(Experiment):
         self.assertEqual([(r["mean"], r["least"], r["most"]) for r in rows], [("9", "0", "36"), ("4.5", "0", "18")])
         self.assertEqual([(r["cycles"], r["seconds"], r["status"], r["seed"]) for r in rows], [("10", "0.4", "finished", "1")] * 2)
 
+    def test_measures_with_arithmetic(self):
+        self.edit(
+            "small.xml",
+            """  <measure name="mean" mean""",
+            """  <measure name="share" share="P/A(1,1) >= 5"/>
+  <measure name="b" mean="P/B(1,1)"/>
+  <measure name="a" mean="P/A(1,1)"/>
+  <measure name="difference" formula="a - b"/>
+  <measure name="ratio" formula="if(share > 0.6, difference / b, 0)"/>
+  <measure name="never" first="P/A(1,1) > 1000"/>
+  <measure name="nothing" formula="never + 1"/>
+  <measure name="mean" mean""",
+        )
+        self.forage("experiment", "small.xml")
+        rows = self.rows("forage-out/small/results.csv")
+        # A is 2 w t at the end of cycle t, from 0 to 9; B is 2.
+        self.assertEqual([(r["share"], r["a"], r["b"], r["difference"]) for r in rows], [("0.7", "9", "2", "7"), ("0.5", "4.5", "2", "2.5")])
+        self.assertEqual([(r["ratio"], r["nothing"]) for r in rows], [("3.5", ""), ("0", "")])
+        self.edit("small.xml", 'formula="a - b"', 'formula="b - a"')
+        self.forage("experiment", "small.xml")
+        self.assertEqual([r["difference"] for r in self.rows("forage-out/small/results.csv")], ["-7", "-2.5"])
+
+    def test_a_formula_uses_measures_above_it(self):
+        self.edit("small.xml", '<measure name="five"', '<measure name="early" formula="mean * 2"/>\n  <measure name="five"')
+        self.assertIn("there is no measure 'mean' above it", self.forage("experiment", "small.xml", status=2).stderr)
+        self.edit("small.xml", '<measure name="early" formula="mean * 2"/>', "")
+        self.edit("small.xml", "</experiment>", '<measure name="late" formula="maen / (2"/></experiment>')
+        self.assertRegex(self.forage("experiment", "small.xml", status=2).stderr, r"small\.xml:\d+:\d+: error: measure 'late'")
+        self.edit("small.xml", "maen / (2", "maen / 2")
+        self.assertIn("did you mean 'mean'?", self.forage("experiment", "small.xml", status=2).stderr)
+
+    def test_recordings_have_the_format_that_is_asked_for(self):
+        self.edit(
+            "small.xml", "</experiment>", """<record column="P/A" format="npy"/><record column="P/B" format="h5"/><record column="P/A:vm"/></experiment>"""
+        )
+        self.forage("experiment", "small.xml")
+        (run, *_) = (self.here / "forage-out/small/runs").iterdir()
+        self.assertLessEqual({"P_A_act.npy", "recording.h5", "P_A_vm.csv"}, {p.name for p in run.iterdir()})
+        self.edit("small.xml", 'format="npy"', 'format="numpy"')
+        self.assertIn("csv, npy, npz, h5", self.forage("experiment", "small.xml", status=2).stderr)
+
     def test_what_a_robot_does(self):
         (self.here / "robot.xml").write_text(ROBOT.replace("TRIALS", "3"))
         self.forage("experiment", "robot.xml", "-o", "without")

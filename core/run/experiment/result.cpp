@@ -42,11 +42,17 @@ std::string key_of(const PlannedRun& run, const model::Experiment& experiment) {
         key["manipulate"].push_back({static_cast<int>(m.mode), m.group.text, m.cells.text,
                                      m.patterns.empty() ? "" : file_digest(m.patterns.text), m.every, m.step,
                                      or_null(m.times), m.backwards, m.from.text, m.until.text});
-    for (const auto& r : o.recordings) key["record"].push_back({r.column.text, r.every});
+    for (const auto& r : o.recordings) {
+        auto& recording = key["record"].emplace_back(Json{r.column.text, r.every});
+        if (!r.format.empty()) recording.push_back(r.format);
+    }
+    const bool formulas = std::ranges::any_of(
+        experiment.measures, [](const auto& m) { return m.kind == model::Measure::Kind::formula; });
     for (const auto& each : o.plots) key["plot"].push_back(each.text);
     for (const auto& m : experiment.measures) {
         auto& measure = key["measure"].emplace_back(Json{static_cast<int>(m.kind), m.what.text});
         if (!m.of.empty()) measure.push_back(m.of.text);
+        if (formulas) measure.push_back(m.name);  // which formulas use
     }
     return key.dump();
 }
