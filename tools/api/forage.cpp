@@ -119,14 +119,18 @@ RunOutcome run(const RunSpec& spec, const RunCallbacks& callbacks) {
 
 std::vector<std::string> draw(const std::string& from, const std::vector<std::string>& plots,
                               const std::string& directory, const std::string& format,
-                              const std::vector<std::string>& where) {
+                              const std::vector<std::string>& where, const std::string& layout,
+                              double width_mm) {
     Diagnostics diagnostics;
     std::vector<std::string> out;
+    std::optional<plot::FigureLayout> panels;
+    if (!layout.empty()) panels = plot::parse_layout(layout, width_mm, diagnostics);
     const auto picture = plot::format_of("x." + format);
     if (!picture) diagnostics.error({}, "'" + format + "' is not a format of pictures", "png, svg or pdf");
     try {
         Results results = open_results(from);
-        if (picture) out = draw(results, plots, directory, *picture, diagnostics, where);
+        if (picture && !diagnostics.failed())
+            out = draw(results, plots, directory, *picture, diagnostics, where, panels);
     } catch (const FileError& e) {
         report(e, diagnostics);
     }

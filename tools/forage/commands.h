@@ -59,6 +59,8 @@ struct PlotOptions {
     std::vector<std::string> where;  ///< which runs of an experiment to draw: "PARAMETER=VALUE"
     std::string directory;           ///< empty: beside the source; for a system, the working directory
     std::string plot_format = "png";
+    std::string layout;  ///< "ROWSxCOLUMNS" of the panels of one figure; empty: a file per plot
+    double width = 0;    ///< of the figure, mm; 0: that of its panels
 };
 
 struct DescribeOptions {

@@ -20,9 +20,11 @@ int plot(const PlotOptions& o) {
             {}, e.what(),
             "name a directory of results, a recording (.csv, .npy, .npz, .h5) or a system (.iqr)");
     }
-    if (results)
+    std::optional<plot::FigureLayout> layout;
+    if (results && !o.layout.empty()) layout = plot::parse_layout(o.layout, o.width, diagnostics);
+    if (results && !diagnostics.failed())
         for (const auto& file : draw(*results, o.plots, o.directory, *plot::format_of("x." + o.plot_format),
-                                     diagnostics, o.where))
+                                     diagnostics, o.where, layout))
             print("{}\n", file);
     print(stderr, "{}", format(diagnostics));
     return diagnostics.failed() ? bad_input : fine;

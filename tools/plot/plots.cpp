@@ -76,20 +76,28 @@ void RowPlot::add_frame(std::uint64_t cycle, std::span<const double> numbers) {
     }
 }
 
+std::string RowPlot::quantity() const {
+    return what_.label.empty() ? what_.state.empty() ? "value" : what_.state : what_.label;
+}
+
+std::runtime_error RowPlot::nothing() const {
+    return std::runtime_error(
+        rows_ == 0 ? fmt::format("'{}': there is nothing to draw yet", spec_.text)
+                   : fmt::format("'{}': none of these cycles is there; there are {} of {} to {}", spec_.text,
+                                 rows_, first_, last_));
+}
+
 std::string RowPlot::draw(Format format, const PlotContext& context) const {
-    const std::string quantity =
-        what_.label.empty() ? what_.state.empty() ? "value" : what_.state : what_.label;
-    const std::string& title = what_.name;
-    const auto nothing = [&] {
-        return std::runtime_error(
-            rows_ == 0 ? fmt::format("'{}': there is nothing to draw yet", spec_.text)
-                       : fmt::format("'{}': none of these cycles is there; there are {} of {} to {}",
-                                     spec_.text, rows_, first_, last_));
-    };
+    if (spec_.kind != PlotSpec::Kind::movie) return render(picture(context), format);
+    if (frames_.empty()) throw nothing();
+    return render_animation(space_animation(space(context)), seconds_per_frame);
+}
+
+Picture RowPlot::picture(const PlotContext& context) const {
     if (spec_.kind == PlotSpec::Kind::time) {
         if (curves_.empty() || curves_[0].bins().empty()) throw nothing();
         TimePlot p;
-        p.title = title, p.subtitle = context.run, p.quantity = quantity;
+        p.title = what_.name, p.subtitle = context.run, p.quantity = quantity();
         const model::Region& cells = what_.cells;
         const bool places = cells.height > 1 && !what_.numbered;
         const bool pairs = places || (what_.size() <= max_lines && !what_.numbered);
@@ -102,12 +110,16 @@ std::string RowPlot::draw(Format format, const PlotContext& context) const {
         p.seconds_per_cycle = context.seconds_per_cycle;
         if (context.trials.size() > 1 && context.trials.size() <= max_marks)
             p.marks = context.trials, p.mark_name = "a trial begins";
-        return render(time_plot(p), format);
+        return time_plot(p);
     }
     if (frames_.empty()) throw nothing();
-    if (wiring_) return render(wiring(quantity), format);
+    if (wiring_) return wiring(quantity());
+    return space_plot(space(context));
+}
+
+SpacePlot RowPlot::space(const PlotContext& context) const {
     SpacePlot p;
-    p.title = title, p.subtitle = context.run, p.quantity = quantity;
+    p.title = what_.name, p.subtitle = context.run, p.quantity = quantity();
     p.grid = {what_.cells.x,
               what_.cells.y,
               what_.mean ? 1 : what_.cells.width,
@@ -116,8 +128,7 @@ std::string RowPlot::draw(Format format, const PlotContext& context) const {
               what_.synapses};
     p.blocks_across = spec_.blocks_across, p.blocks_down = spec_.blocks_down;
     p.frames = frames_;
-    if (spec_.kind != PlotSpec::Kind::movie) return render(space_plot(p), format);
-    return render_animation(space_animation(p), seconds_per_frame);
+    return p;
 }
 
 /// The weights at each cycle. The rows are matrices with a column per source cell and a row per target cell.

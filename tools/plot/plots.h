@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -43,6 +44,8 @@ class RowPlot {
     /// The picture as the content of a file. Throws std::runtime_error when it cannot be drawn, and when
     /// there was no row of the given cycles.
     std::string draw(Format format, const PlotContext& context) const;
+    /// The picture of a plot that is no animation. Throws std::runtime_error as draw() does.
+    Picture picture(const PlotContext& context) const;
     /// The given cycles that the rows did not reach, of a picture that can be drawn without them; empty when
     /// there are none.
     std::string missing() const { return frames_.empty() ? "" : spec_.after(last_); }
@@ -59,6 +62,9 @@ class RowPlot {
   private:
     void add_frame(std::uint64_t cycle, std::span<const double> numbers);
     Picture wiring(const std::string& quantity) const;
+    SpacePlot space(const PlotContext& context) const;
+    std::runtime_error nothing() const;
+    std::string quantity() const;
 
     PlotSpec spec_;
     observe::Recorded what_;

@@ -55,17 +55,17 @@ const Results::Entry* find_recording(const Results& results, const PlotSpec& spe
     return nullptr;
 }
 
-/// A picture of recorded rows; reports an error and returns nothing when there is no such recording.
-std::string draw_rows(const Results& results, const PlotSpec& spec, const std::optional<Loaded>& loaded,
-                      plot::Format format, Diagnostics& diagnostics) {
+/// The plot of recorded rows; reports an error and returns nothing when there is no such recording.
+std::optional<plot::RowPlot> draw_rows(const Results& results, const PlotSpec& spec,
+                                       const std::optional<Loaded>& loaded, Diagnostics& diagnostics) {
     const auto wanted =
         expression::Context{spec.source(), "forage plot", diagnostics}.parsed(&expression::parse_source);
-    if (!wanted) return {};
+    if (!wanted) return std::nullopt;
     if (results.experiment) {
         diagnostics.error({}, fmt::format("'{}': the recordings are those of the runs", spec.text),
                           fmt::format("draw that of a run: forage plot '{}/runs/{}' '{}'", results.directory,
                                       results.experiment->rows.front().run, spec.text));
-        return {};
+        return std::nullopt;
     }
     std::optional<observe::Part> part;
     const auto* entry = find_recording(results, spec, *wanted, part);
@@ -79,7 +79,7 @@ std::string draw_rows(const Results& results, const PlotSpec& spec, const std::o
                                   fmt::format("'{}': '{}' is not a function of cells here", spec.text,
                                               spec.what.substr(0, open)),
                                   "sources have mean(...), conditions also sum, min and max");
-                return {};
+                return std::nullopt;
             }
         }
         std::vector<std::string> names;
@@ -87,7 +87,7 @@ std::string draw_rows(const Results& results, const PlotSpec& spec, const std::o
         diagnostics.error(
             {}, fmt::format("'{}': there is no such recording", spec.text),
             names.empty() ? how_to_record : fmt::format("there are '{}'", separated(names, "', '")));
-        return {};
+        return std::nullopt;
     }
     plot::RowPlot drawn(spec, part->what, loaded ? &loaded->system : nullptr);
     std::vector<double> row, taken(part->what.size());
@@ -96,11 +96,10 @@ std::string draw_rows(const Results& results, const PlotSpec& spec, const std::o
         part->take(row, taken);
         drawn.add(cycle, taken);
     }
-    const std::string picture = drawn.draw(format, results.context);
     if (const auto missing = drawn.missing(); !missing.empty())
         diagnostics.warning({}, fmt::format("'{}': the recording ends before cycle {}", spec.text, missing),
                             fmt::format("its last cycle is {}", drawn.last()));
-    return picture;
+    return drawn;
 }
 
 /// The runs of an experiment, or the one whose results these are.
@@ -177,10 +176,9 @@ std::optional<Loaded> load_for(const std::vector<PlotSpec>& specs, const Results
     return loaded;
 }
 
-/// A picture as the content of a file; empty when there was an error.
-std::string draw_one(const PlotSpec& spec, Results& results, const std::optional<Loaded>& loaded,
-                     plot::Format format, Diagnostics& diagnostics) {
-    if (spec.of_cells()) return draw_rows(results, spec, loaded, format, diagnostics);
+/// A picture that is not of recorded rows; empty when there was an error.
+std::optional<plot::Picture> draw_other(const PlotSpec& spec, Results& results,
+                                        const std::optional<Loaded>& loaded, Diagnostics& diagnostics) {
     const std::string& title = results.context.run;
     std::optional<plot::Picture> picture;
     if (spec.kind == Kind::learning)
@@ -202,14 +200,57 @@ std::string draw_one(const PlotSpec& spec, Results& results, const std::optional
     else
         picture =
             plot::structure_plot(spec, loaded->system, loaded->registry, nullptr, results.input.seed, title);
+    return picture;
+}
+
+/// A picture as the content of a file; empty when there was an error.
+std::string draw_file(const PlotSpec& spec, Results& results, const std::optional<Loaded>& loaded,
+                      plot::Format format, Diagnostics& diagnostics) {
+    if (spec.of_cells()) {
+        const auto rows = draw_rows(results, spec, loaded, diagnostics);
+        return rows ? rows->draw(format, results.context) : "";
+    }
+    const auto picture = draw_other(spec, results, loaded, diagnostics);
     return picture ? plot::render(*picture, format) : "";
+}
+
+/// The pictures as panels of one figure, as the content of a file; empty when there was an error.
+std::string draw_figure(const std::vector<PlotSpec>& specs, const plot::FigureLayout& layout,
+                        Results& results, const std::optional<Loaded>& loaded, plot::Format format,
+                        Diagnostics& diagnostics) {
+    const auto places = static_cast<std::size_t>(layout.rows) * static_cast<std::size_t>(layout.columns);
+    if (specs.size() > places || specs.size() > plot::max_panels_of_figure)
+        diagnostics.error(
+            {},
+            fmt::format("{} plots do not fit into {} x {} panels", specs.size(), layout.rows, layout.columns),
+            fmt::format("choose a larger --layout; a figure has at most {} panels",
+                        plot::max_panels_of_figure));
+    for (const auto& spec : specs)
+        if (spec.kind == Kind::movie)
+            diagnostics.error({}, fmt::format("'{}' is an animation, which is no panel", spec.text),
+                              "'space:SOURCE@CYCLES' draws some of its cycles");
+    std::vector<plot::Picture> panels;
+    for (const auto& spec : specs) {
+        if (diagnostics.failed()) return {};
+        if (!spec.of_cells()) {
+            if (auto picture = draw_other(spec, results, loaded, diagnostics)) panels.push_back(*picture);
+        } else if (const auto rows = draw_rows(results, spec, loaded, diagnostics)) {
+            panels.push_back(rows->picture(results.context));
+        }
+    }
+    if (diagnostics.failed()) return {};
+    plot::FigureLayout size = layout;
+    constexpr double dots_per_inch = 300, pixels_per_inch = 96;  // in print; of other pictures
+    if (format == plot::Format::png && size.width_mm) *size.width_mm *= dots_per_inch / pixels_per_inch;
+    return plot::render(plot::figure(std::move(panels), size), format);
 }
 
 }  // namespace
 
 std::vector<std::string> draw(Results& results, const std::vector<std::string>& plots, std::string directory,
                               plot::Format format, Diagnostics& diagnostics,
-                              const std::vector<std::string>& where) {
+                              const std::vector<std::string>& where,
+                              const std::optional<plot::FigureLayout>& layout) {
     if (results.experiment)
         keep_runs(*results.experiment, where, diagnostics);
     else if (!where.empty())
@@ -243,11 +284,15 @@ std::vector<std::string> draw(Results& results, const std::vector<std::string>& 
             diagnostics.error({}, e.what());
         }
     };
-    for (const auto& spec : specs)
-        attempt([&] {
-            pictures.emplace_back(directory == "." ? spec.file(format) : directory + "/" + spec.file(format),
-                                  draw_one(spec, results, loaded, format, diagnostics));
-        });
+    const auto add = [&](const std::string& name, const auto& draw_it) {
+        attempt([&] { pictures.emplace_back(directory == "." ? name : directory + "/" + name, draw_it()); });
+    };
+    if (layout)
+        add("figure" + std::string(plot::ending(format)),
+            [&] { return draw_figure(specs, *layout, results, loaded, format, diagnostics); });
+    else
+        for (const auto& spec : specs)
+            add(spec.file(format), [&] { return draw_file(spec, results, loaded, format, diagnostics); });
     if (diagnostics.failed()) return {};  // no picture beside a mistake
     for (const auto& [file, picture] : pictures)
         attempt([&, &file = file, &picture = picture] {

@@ -9,6 +9,7 @@
 #include "core/observe/recording.h"
 #include "core/run/run_spec.h"
 #include "tools/api/experiment/experiment_plots.h"
+#include "tools/plot/figure.h"
 #include "tools/plot/plots.h"
 #include "tools/plot/trajectory.h"
 
@@ -38,10 +39,11 @@ std::vector<plot::Path> read_paths(const std::string& directory);
 /// Draws `plots` ("time:Process/Group", "trajectory"), or the usual pictures of these results when there are
 /// none, into `directory` (empty: beside the results, or the working directory for a system). Reports
 /// mistakes in `plots`. Of an experiment, only the runs that `where` keeps are drawn, see keep_runs().
-/// Returns the paths of the written files.
+/// With a `layout`, they are the panels of one file "figure". Returns the paths of the written files.
 std::vector<std::string> draw(Results& results, const std::vector<std::string>& plots, std::string directory,
                               plot::Format format, Diagnostics& diagnostics,
-                              const std::vector<std::string>& where = {});
+                              const std::vector<std::string>& where = {},
+                              const std::optional<plot::FigureLayout>& layout = {});
 
 /// The pictures in the folders below a directory, in order of their paths relative to it. Folders of runs
 /// that their experiment's table does not name any more are left out.
