@@ -87,9 +87,10 @@ struct RunSpec {
     std::vector<model::ScheduledChange> changes;  ///< changes of parameters and of the world
     std::vector<model::ManipulationSpec> manipulations;
     std::vector<model::Measure> measures;
-    bool paths = true;  ///< whether the robots' paths are recorded
-    std::string video;  ///< .gif or .png file of a film; none when empty
-    int threads = 1;    ///< largest number of threads; the results do not depend on it
+    bool paths = true;                            ///< whether the robots' paths are recorded
+    std::string video;                            ///< .gif, .mp4 or .png file of a film; none when empty
+    std::vector<model::Expression> video_groups;  ///< sources that the film shows beside the world
+    int threads = 1;  ///< largest number of threads; the results do not depend on it
     OnNan on_nan = OnNan::warn;
     bool digest = false;    ///< whether everything is computed, for a digest of the final state
     bool explain = false;   ///< whether statistics of all groups are collected, to explain what they did

@@ -7,6 +7,7 @@ import csv
 import os
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -108,7 +109,30 @@ class World(unittest.TestCase):
         pictures = sorted(p.name for p in self.here.glob("game_*.png"))
         self.assertGreater(len(pictures), 5)
         self.assertIn(f"{pictures[0]} to {pictures[-1]}", out)
-        self.assertIn("it ends with .gif or .png", self.forage("run", *TEAMS, "--video", "game.avi", status=2).stderr)
+        self.assertIn("it ends with .gif, .mp4 or .png", self.forage("run", *TEAMS, "--video", "game.avi", status=2).stderr)
+
+    @unittest.skipUnless(shutil.which("ffmpeg"), "ffmpeg is not installed")
+    def test_a_film_of_ffmpeg_shows_groups_beside_the_world(self):
+        reactive = [SYSTEMS / "reactive_foraging.iqr", "--world", SYSTEMS / "worlds" / "basic_arena.world", "--seconds", 2, "-o", ""]
+        out = self.forage("run", *reactive, "--video", "film.mp4").stdout
+        groups = ("--video-group", "Bug/Motor", "--video-group", "mean(Bug/Light)")
+        self.forage("run", *reactive, "--video", "wide.mp4", *groups)
+        frames = int(re.search(r"film.mp4: (\d+) frames", out)[1])
+        sizes = {}
+        for name in ("film.mp4", "wide.mp4"):
+            count = subprocess.run(["ffmpeg", "-i", name, "-f", "framemd5", "-"], cwd=self.here, capture_output=True, text=True)
+            lines = count.stdout.splitlines()
+            self.assertEqual(sum(not line.startswith("#") for line in lines), frames)
+            sizes[name] = next(int(line.split()[-1].split("x")[0]) for line in lines if line.startswith("#dimensions"))
+        self.assertEqual(sizes["wide.mp4"] - sizes["film.mp4"], 230)
+        self.assertEqual(sorted(p.name for p in self.here.iterdir()), ["film.mp4", "wide.mp4"])
+        self.assertIn("there is no group", self.forage("run", *reactive, "--video", "x.mp4", "--video-group", "Bug/Nothing", status=2).stderr)
+
+    def test_a_film_of_ffmpeg_needs_ffmpeg(self):
+        done = subprocess.run([FORAGE, "run", *map(str, TEAMS), "--video", "x.mp4"], cwd=self.here, capture_output=True, text=True, env={"PATH": "/nowhere"})
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("'x.mp4' needs the program ffmpeg, which is not installed", done.stderr)
+        self.assertEqual(list(self.here.iterdir()), [])
 
     def test_the_page_on_making_a_world_works_as_it_is_written(self):
         page = (PROJECT / "docs" / "how-to" / "make-a-world.md").read_text()

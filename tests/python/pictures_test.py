@@ -1,6 +1,7 @@
 """Pictures and films are those of the command line; notebooks show every object."""
 import base64
 import copy
+import shutil
 from html import escape
 
 import pytest
@@ -90,17 +91,26 @@ def test_what_cannot_be_drawn_says_why(dac):
 
 
 def test_a_film_is_that_of_the_command_line(dac, command, tmp_path):
-    with dac.film(tmp_path / "robot.gif") as film:
+    with dac.film(tmp_path / "robot.gif", groups=["Bug/Motor"]) as film:
         dac.run(cycles=30)
         assert not film.closed and "not complete" in repr(film)
     assert film.frames > 1 and film.closed and "data:image/gif;base64" in film._repr_html_()
-    command("run", SYSTEMS / "dac_foraging.iqr", "--world", WORLD, "--cycles", 30, "--video", tmp_path / "other.gif", "-o", "")
+    command("run", SYSTEMS / "dac_foraging.iqr", "--world", WORLD, "--cycles", 30, "--video", tmp_path / "other.gif", "--video-group", "Bug/Motor", "-o", "")
     assert (tmp_path / "robot.gif").read_bytes() == (tmp_path / "other.gif").read_bytes()
     film.close()
     (tmp_path / "folder.gif").mkdir()
-    for name in ("film.mp4", tmp_path / "folder.gif"):
+    for name in ("film.avi", tmp_path / "folder.gif"):
         with pytest.raises(forage.InputError):
             dac.film(name)
+
+
+@pytest.mark.skipif(not shutil.which("ffmpeg"), reason="ffmpeg is not installed")
+def test_notebooks_show_films_of_ffmpeg(dac, tmp_path):
+    with dac.film(tmp_path / "robot.mp4") as film:
+        dac.run(cycles=20)
+    assert '<video controls style="max-width: 100%" src="data:video/mp4;base64' in film._repr_html_()
+    with pytest.raises(forage.InputError, match="there is no group"):
+        dac.film(tmp_path / "robot.gif", groups=["Bug/Nothing"])
 
 
 def test_a_film_is_completed_with_its_run(tmp_path):

@@ -234,11 +234,18 @@ void add_run_options(CLI::App& run, RunOptions& options) {
     run.add_flag("--game", o.input.game,
                  "Play the robotics challenge: two teams collect resources for five minutes")
         ->needs("--world");
-    run.add_option(
-           "--video", o.video,
-           "Film the world from above, with what the robots see: an animated .gif, or numbered .png files")
+    run.add_option("--video", o.video,
+                   "Film the world from above, with what the robots see: an animated .gif, an .mp4 film "
+                   "(needs ffmpeg), "
+                   "or numbered .png files")
         ->option_text("FILE")
         ->needs("--world");
+    add_texts(
+        run, "--video-group", o.video_groups,
+        "Show a source, such as 'Process/Group' or 'Process/Group:vm', beside the world of the film; may be "
+        "repeated",
+        "SOURCE")
+        ->needs("--video");
     run.add_option("--threads", o.threads,
                    "Largest number of threads that share a cycle. It pays for large systems, while cores are "
                    "idle. The numbers do not depend on it [1]")

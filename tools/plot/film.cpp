@@ -29,13 +29,15 @@ WorldMap map_of(const bug::World& world) {
 /// The surface for all frames. The static part of the world is drawn only once.
 class Film::Screen {
   public:
-    Screen(bug::World& world, const std::string& title)
+    Screen(bug::World& world, const std::string& title, const FilmGroups& groups)
         : world_(world),
           map_(map_of(world)),
           panel_(world),
-          width_(static_cast<int>(std::ceil(panel_left() + panel_width + film_margin))),
-          height_(
-              static_cast<int>(std::ceil(film_head + std::max(map_.height(), panel_.height()) + film_foot))),
+          groups_(groups),
+          width_(static_cast<int>(
+              std::ceil(groups_left() + (groups.empty() ? 0 : groups.width() + film_margin)))),
+          height_(static_cast<int>(std::ceil(
+              film_head + std::max({map_.height(), panel_.height(), groups.height()}) + film_foot))),
           ground_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_)),
           surface_(cairo_image_surface_create(CAIRO_FORMAT_RGB24, width_, height_)),
           context_(cairo_create(surface_.get())),
@@ -64,6 +66,7 @@ class Film::Screen {
             for (std::size_t i = 0; i < world_.bugs(); ++i) draw_number(i);
         cairo_restore(c);
         panel_.draw(canvas_, panel_left(), film_head);
+        groups_.draw(canvas_, groups_left(), film_head);
     }
 
     Pixels pixels() { return pixels_of(surface_.get()); }
@@ -74,6 +77,7 @@ class Film::Screen {
 
   private:
     double panel_left() const { return film_margin + map_.width() + film_margin; }
+    double groups_left() const { return panel_left() + panel_width + film_margin; }
     void draw_number(std::size_t i) {
         const auto& at = world_.pose(i);
         const double x = map_.px(at.x), y = map_.py(at.y) - world_.robot(i).body.radius * map_.scale() - 4;
@@ -84,37 +88,50 @@ class Film::Screen {
     bug::World& world_;
     WorldMap map_;
     FilmPanel panel_;
+    const FilmGroups& groups_;
     int width_, height_;
     CairoSurface ground_, surface_;
     CairoContext context_;
     Canvas canvas_;
 };
 
-Film::Film(bug::World& world, std::string name, double seconds_per_frame, std::string title)
-    : world_(world), name_(std::move(name)), title_(std::move(title)) {
+Film::Film(bug::World& world, std::string name, double seconds_per_frame, std::string title,
+           std::vector<observe::Source> groups)
+    : world_(world), name_(std::move(name)), title_(std::move(title)), groups_(std::move(groups)) {
     if (name_.ends_with(".gif")) gif_.emplace(name_, seconds_per_frame);
+    if (name_.ends_with(".mp4")) mp4_.emplace(name_, seconds_per_frame);
 }
 
 Film::~Film() = default;
 
-bool Film::is_name(const std::string& name) { return name.ends_with(".gif") || name.ends_with(".png"); }
+void Film::check_name(const std::string& name, const std::string& option, Diagnostics& diagnostics) {
+    if (!name.ends_with(".gif") && !name.ends_with(".mp4") && !name.ends_with(".png"))
+        diagnostics.error({}, fmt::format("{}: '{}' is not the name of a film", option, name),
+                          "it ends with .gif, .mp4 or .png");
+    else if (name.ends_with(".mp4") && !has_ffmpeg())
+        diagnostics.error(
+            {}, fmt::format("{}: '{}' needs the program ffmpeg, which is not installed", option, name),
+            "Debian and Ubuntu: apt-get install ffmpeg; a film that ends with .gif needs none");
+}
 
 std::string Film::frame_name(const std::string& name, std::size_t frame) {
     return fmt::format("{}_{:05}.png", name.substr(0, name.size() - 4), frame);
 }
 
 Pixels Film::draw() {
-    if (!screen_) screen_ = std::make_unique<Screen>(world_, title_);
+    if (!screen_) screen_ = std::make_unique<Screen>(world_, title_, groups_);
     screen_->draw();
     return screen_->pixels();
 }
 
 void Film::add() {
     // The ground is drawn now, because it has the names of the sensors that the first cycle has asked for.
-    if (!screen_) screen_ = std::make_unique<Screen>(world_, title_);
+    if (!screen_) screen_ = std::make_unique<Screen>(world_, title_, groups_);
     screen_->draw();
     if (gif_)
         gif_->add(screen_->pixels());
+    else if (mp4_)
+        mp4_->add(screen_->pixels());
     else
         screen_->write_png(frame_name(name_, frames_ + 1));
     ++frames_;
@@ -122,6 +139,7 @@ void Film::add() {
 
 std::size_t Film::finish() {
     if (gif_) gif_->finish();
+    if (mp4_) mp4_->finish();
     return frames_;
 }
 

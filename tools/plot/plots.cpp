@@ -218,22 +218,24 @@ void TrajectoryPlotter::finish(RunView&, ResultFiles& files) {
 }
 
 FilmRecorder::FilmRecorder(bug::World& world, std::string name, double seconds_per_cycle,
-                           const std::string& title)
+                           const std::string& title, std::vector<observe::Source> groups)
     : name_(std::move(name)),
       every_(std::max<std::uint64_t>(1, static_cast<std::uint64_t>(film_frame / seconds_per_cycle + 0.5))),
-      film_(world, name_, static_cast<double>(every_) * seconds_per_cycle, title) {}
+      film_(world, name_, static_cast<double>(every_) * seconds_per_cycle, title, std::move(groups)) {}
 
 void FilmRecorder::after_cycle(RunView& run) {
-    if (run.time.cycle % every_ == 0) film_.add();
+    if (run.time.cycle % every_ != 0) return;
+    film_.groups().read(run.simulation);
+    film_.add();
 }
 
 void FilmRecorder::finish(RunView&, ResultFiles& files) {
     files.attempt([&] {
         const std::size_t frames = film_.finish();
         if (frames > 0)
-            files.note("film", name_.ends_with(".gif") ? fmt::format("{}: {} frames", name_, frames)
-                                                       : fmt::format("{} to {}", Film::frame_name(name_, 1),
-                                                                     Film::frame_name(name_, frames)));
+            files.note("film", !name_.ends_with(".png") ? fmt::format("{}: {} frames", name_, frames)
+                                                        : fmt::format("{} to {}", Film::frame_name(name_, 1),
+                                                                      Film::frame_name(name_, frames)));
     });
 }
 

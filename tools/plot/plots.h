@@ -152,9 +152,14 @@ class TrajectoryPlotter final : public Observer {
 class FilmRecorder final : public Observer {
   public:
     /// `world` is the run's environment, `seconds_per_cycle` is that of the run.
-    FilmRecorder(bug::World& world, std::string name, double seconds_per_cycle, const std::string& title);
+    /// The film shows `groups` beside the world.
+    FilmRecorder(bug::World& world, std::string name, double seconds_per_cycle, const std::string& title,
+                 std::vector<observe::Source> groups = {});
 
     Film& film() { return film_; }
+    void declare(engine::Demand& demand) const override {
+        for (const auto& source : film_.groups().sources()) source.declare(demand);
+    }
 
     void after_cycle(RunView& run) override;
     void finish(RunView& run, ResultFiles& files) override;

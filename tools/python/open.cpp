@@ -305,10 +305,11 @@ Raises InputError.)_")
              "Draws the processes, groups and connections of the system, or of one process. Returns a "
              "Picture.")
         .def(
-            "film", &film, "file"_a,
+            "film", &film, "file"_a, "groups"_a = std::vector<std::string>(),
             R"(Films the world and what the robots see, from the next cycle on: with run.film("robot.gif"): run.run(trials=1).
 
-file: a name that ends with .gif, or with .png for numbered pictures.
+file: a name that ends with .gif, with .mp4 where ffmpeg is installed, or with .png for numbered pictures.
+groups: sources whose activity is shown beside the world, such as "Process/Group".
 Returns a Film, which is complete when it or the run is closed. Raises InputError, also without a world.)");
     run.def("__getitem__", [](PythonRun& self, const std::string& path) { return find_group(self, path); })
         .def("__contains__", &has_group)

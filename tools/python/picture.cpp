@@ -24,9 +24,10 @@ py::object diagram(PythonRun& run, const std::optional<std::string>& process, co
     return plot(run, process ? "diagram:" + *process : "diagram", format, 0);
 }
 
-std::unique_ptr<PythonFilm> film(PythonRun& run, const std::filesystem::path& file) {
+std::unique_ptr<PythonFilm> film(PythonRun& run, const std::filesystem::path& file,
+                                 const std::vector<std::string>& groups) {
     const std::string path = std::filesystem::absolute(file).string();
-    Observer& made = forage::film(run.use(), path);
+    Observer& made = forage::film(run.use(), path, groups);
     run.add_film(made);
     return std::make_unique<PythonFilm>(PythonFilm{run.shared_from_this(), &made, path});
 }

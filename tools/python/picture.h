@@ -22,6 +22,7 @@ struct PythonFilm {
 
 py::object plot(PythonRun& run, const std::string& picture, const std::string& format, std::size_t robot);
 py::object diagram(PythonRun& run, const std::optional<std::string>& process, const std::string& format);
-std::unique_ptr<PythonFilm> film(PythonRun& run, const std::filesystem::path& file);
+std::unique_ptr<PythonFilm> film(PythonRun& run, const std::filesystem::path& file,
+                                 const std::vector<std::string>& groups);
 
 }  // namespace forage::python

@@ -95,9 +95,10 @@ std::vector<std::string> draw(const std::string& from, const std::vector<std::st
 /// added to `warnings`, if it is not null.
 std::string draw(Run& run, const std::string& picture, const std::string& format = "png",
                  std::size_t robot = 0, Diagnostics* warnings = nullptr);
-/// Films the world of a run, from the next cycle on, into a file that ends with .gif, or into numbered
-/// pictures for a name that ends with .png, until finish_film(). Throws InputError.
-Observer& film(Run& run, const std::string& file);
+/// Films the world of a run, from the next cycle on, until finish_film(): into a file that ends with .gif or,
+/// where ffmpeg is installed, .mp4, or into numbered pictures for a name that ends with .png. The activity of
+/// `groups`, which are sources, is shown beside the world. Throws InputError.
+Observer& film(Run& run, const std::string& file, const std::vector<std::string>& groups = {});
 /// Completes a film of a run and removes it from the run. Returns the number of its frames. Throws
 /// std::runtime_error when the file cannot be written.
 std::size_t finish_film(Run& run, Observer& film);

@@ -103,15 +103,17 @@ void add_paths(Preparation& p) {
 void add_film(Preparation& p) {
     const std::string& name = p.spec().video;
     if (name.empty()) return;
-    if (!plot::Film::is_name(name)) {
-        p.diagnostics.error({}, fmt::format("--video: '{}' is not the name of a film", name),
-                            "it ends with .gif or .png");
-        return;
-    }
+    plot::Film::check_name(name, "--video", p.diagnostics);
+    std::vector<observe::Source> groups;
+    for (const auto& g : p.spec().video_groups)
+        if (auto source =
+                observe::find_source(p.run().layout(), g.text, "--video-group", p.diagnostics, g.at))
+            groups.push_back(std::move(*source));
+    if (p.diagnostics.failed()) return;
     check_output(name, "film.gif", p.diagnostics);
     if (p.world)
-        p.run().add(
-            std::make_unique<plot::FilmRecorder>(*p.world, name, p.run().seconds_per_cycle(), p.title));
+        p.run().add(std::make_unique<plot::FilmRecorder>(*p.world, name, p.run().seconds_per_cycle(), p.title,
+                                                         std::move(groups)));
 }
 
 void add_broadcaster(Preparation& p) {

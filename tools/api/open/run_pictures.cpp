@@ -116,15 +116,20 @@ std::string draw(Run& run, const std::string& picture, const std::string& format
     throw InputError(e.what());
 }
 
-Observer& film(Run& run, const std::string& file) {
+Observer& film(Run& run, const std::string& file, const std::vector<std::string>& groups) {
     auto* world = dynamic_cast<bug::World*>(run.environment());
     if (!world) throw InputError("a film needs a world", "open the run with a world");
-    if (!plot::Film::is_name(file))
-        throw InputError(fmt::format("'{}' is not the name of a film", file), "it ends with .gif or .png");
     Diagnostics diagnostics;
+    plot::Film::check_name(file, "film", diagnostics);
+    std::vector<observe::Source> sources;
+    for (const auto& group : groups)
+        if (auto source = observe::find_source(run.layout(), group, "film", diagnostics))
+            sources.push_back(std::move(*source));
+    throw_errors(diagnostics);
     check_output(file, "film.gif", diagnostics);
     throw_errors(diagnostics);
-    return run.add(std::make_unique<plot::FilmRecorder>(*world, file, run.seconds_per_cycle(), run.title));
+    return run.add(std::make_unique<plot::FilmRecorder>(*world, file, run.seconds_per_cycle(), run.title,
+                                                        std::move(sources)));
 }
 
 std::size_t finish_film(Run& run, Observer& film) {

@@ -74,8 +74,10 @@ def _ends(rows, most=20):
 
 
 def film(self):
-    if not self.closed or not self.file.endswith(".gif") or not os.path.isfile(self.file):  # there is none without a frame
+    if not self.closed or not self.file.endswith((".gif", ".mp4")) or not os.path.isfile(self.file):  # there is none without a frame
         return plain(self)
     with open(self.file, "rb") as file:
         data = base64.b64encode(file.read()).decode()
+    if self.file.endswith(".mp4"):
+        return f'<video controls style="max-width: 100%" src="data:video/mp4;base64,{data}"></video>'
     return f'<img style="max-width: 100%" src="data:image/gif;base64,{data}">'
