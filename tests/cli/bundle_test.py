@@ -14,6 +14,7 @@ import zipfile
 
 from cli_test import FORAGE, PROJECT, Cli
 
+
 def changed(archive, to, **texts):
     """Copies an archive; names with '/' written as '__' are given other texts, or None to leave them out."""
     texts = {name.replace("__", "/").replace("_dot_", "."): text for name, text in texts.items()}

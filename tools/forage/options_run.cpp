@@ -149,9 +149,10 @@ void add_network(CLI::App& run, RunSpec& o) {
 /// The words of a command line that decide its results.
 std::vector<std::string> deciding_words(const CLI::App& run) {
     static constexpr std::string_view others[] = {
-        "output",         "threads", "checkpoint-every", "discard-checkpoint", "quiet", "realtime",
-        "bundle",         "video",   "remote",           "broadcast",          "help",  "broadcast-every",
-        "broadcast-group"};
+        "output",          "threads",        "checkpoint-every", "discard-checkpoint",
+        "quiet",           "realtime",       "bundle",           "video",
+        "video-group",     "remote",         "broadcast",        "help",
+        "broadcast-every", "broadcast-group"};
     std::vector<std::string> out = {run.get_name()};
     for (const auto* option : run.get_options()) {
         const bool positional = option->get_positional();
