@@ -1,9 +1,16 @@
 #include "core/model/parts.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "core/model/build.h"
-#include "core/model/names.h"
+#include "core/model/lookup.h"
+#include "core/model/refused.h"
 
 namespace forage::model {
 namespace {
@@ -15,6 +22,83 @@ void each_port(const System& system, F f) {
         if (p.linked() && p.within.empty())
             for (const auto& port : p.ports)
                 if (!port.group.empty()) f(p.id + "." + port.name, port.group);
+}
+
+/// Calls f(id) with the ids of the groups and connections of a process file.
+template <class F>
+void each_id(ProcessFile& file, F f) {
+    for (auto& g : file.process.groups) f(g.id);
+    for (auto& c : file.process.canvas_comments) f(c.id);
+    for (auto& c : file.connections) f(c.id);
+}
+
+/// Calls f(id) with the references to groups of a process.
+template <class F>
+void each_reference(Process& p, F f) {
+    for (auto& phantom : p.phantoms) f(phantom.group);
+    if (!p.module) return;
+    for (auto* side : {&p.module->inputs, &p.module->outputs})
+        for (auto& r : *side) f(r.target);
+}
+
+void replace_id(const Names& names, std::string& id) {
+    if (const auto it = names.find(id); it != names.end()) id = it->second;
+}
+
+Process& process_with(System& system, std::string_view id) {
+    if (Process* p = find_process(system, id)) return *p;
+    throw std::invalid_argument(fmt::format("there is no process with the id '{}'", id));
+}
+
+/// Throws Refused for a process that cannot be a part.
+void refuse_as_part(const System& system, const Process& p) {
+    const std::string name(trim(p.name));
+    if (p.linked() || !p.within.empty())
+        throw Refused(fmt::format("process '{}' is in a file already", name), "dissolve it first");
+    if (p.groups.empty())
+        throw Refused(fmt::format("process '{}' has no groups", name), "a part has groups to connect to");
+    Process copy = p;
+    copy.phantoms.clear();
+    const GroupIndex groups(system);
+    each_reference(copy, [&](const std::string& target) {
+        if (const auto found = groups.find(target); found.group && found.process != &p)
+            throw Refused(
+                fmt::format("the module of '{}' has the group '{}' of another process", name,
+                            path(system, *found.process, *found.group)),
+                "a part has all groups of its module: move the group into the process, or connect a "
+                "group of the process with it");
+    });
+}
+
+/// Takes `prefix` from the ids of a file, where they have it, unless two items would then have one id.
+/// Returns the new ids by the old ones.
+Names without_prefix(ProcessFile& file, const std::string& prefix) {
+    Names names;
+    std::set<std::string> known{file.process.id};
+    bool unique = true;
+    each_id(file, [&](const std::string& id) {
+        const bool has_it = id.size() > prefix.size() && id.starts_with(prefix);
+        unique = known.insert(names[id] = has_it ? id.substr(prefix.size()) : id).second && unique;
+    });
+    if (!unique)
+        for (auto& [before, after] : names) after = before;
+    each_id(file, [&](std::string& id) { replace_id(names, id); });
+    each_reference(file.process, [&](std::string& id) { replace_id(names, id); });
+    for (auto& port : file.process.ports) {
+        if (port.name == port.group) replace_id(names, port.name);
+        replace_id(names, port.group);
+    }
+    for (auto& c : file.connections) replace_id(names, c.source), replace_id(names, c.target);
+    return names;
+}
+
+/// Removes the types that only the file of a part needs from now on.
+void leave_types(std::vector<TypeDeclaration>& all, const std::vector<TypeDeclaration>& in_file,
+                 const std::set<std::string_view>& used) {
+    std::erase_if(all, [&](const TypeDeclaration& type) {
+        return !type.linked && !used.contains(type.name) &&
+               std::ranges::find(in_file, type.name, &TypeDeclaration::name) != in_file.end();
+    });
 }
 
 }  // namespace
@@ -68,6 +152,109 @@ Connection renamed(const Names& names, Connection c) {
     for (auto* end : {&c.source, &c.target})
         if (const auto it = names.find(*end); it != names.end()) *end = it->second;
     return c;
+}
+
+std::string use_part(System& system, const ProcessFile& file, const std::string& path, std::string name,
+                     std::string id) {
+    if (trim(name).empty()) {
+        const std::string first(trim(file.process.name));
+        const auto is_taken = [&](const auto& p) { return trim(p.name) == name; };
+        name = first;
+        for (int n = 2; std::ranges::any_of(system.processes, is_taken); ++n)
+            name = fmt::format("{} {}", first, n);
+    }
+    if (id.empty()) id = fresh_id(system, file.process.id);
+    auto made = add_process(system, std::move(name), std::move(id));
+    find_process(system, made)->path = path;
+    return made;
+}
+
+MadePart make_part(System& system, std::string_view id, const std::string& path) {
+    Process& before = process_with(system, id);
+    refuse_as_part(system, before);
+    MadePart out{extract_process(system, id), {}};
+    auto& part = out.file.process;
+    part.comments.clear();  // they stay before the use
+    for (auto* types : {&out.file.neuron_types, &out.file.synapse_types})
+        for (auto& type : *types) type.linked = false;
+    if (part.ports.empty())
+        for (const auto& g : part.groups)
+            part.ports.push_back({.name = g.id, .group = g.id, .at = {}, .name_at = {}, .group_at = {}});
+
+    Process use;
+    use.id = before.id, use.name = before.name, use.icon = before.icon, use.path = path;
+    use.comments = before.comments, use.phantoms = before.phantoms;
+    for (const auto& c : part.constants)
+        if (std::ranges::find(before.constants, c.name, &Constant::name) == before.constants.end()) {
+            Constant given;
+            given.name = c.name, given.value = "{" + c.name + "}";
+            give(use, given);
+        }
+
+    // In the system, the ids of the file begin with that of the process that uses it.
+    const std::string prefix = before.id + ".";
+    const Names shortened = without_prefix(out.file, prefix);
+    Names names, ends;
+    for (const auto& [was, is] : shortened) {
+        names[was] = prefix + is;
+        const bool is_comment =
+            std::ranges::find(part.canvas_comments, is, &CanvasComment::id) != part.canvas_comments.end();
+        if (was != prefix + is && !is_comment) out.renamed.push_back(prefix + is);
+    }
+    for (const auto& port : part.ports)
+        for (const auto& [was, is] : shortened)
+            if (is == port.group) ends.emplace(was, prefix + port.name);
+    before = std::move(use);
+    std::erase_if(system.connections, [&](const Connection& c) { return shortened.contains(c.id); });
+    for (auto& c : system.connections)
+        if (!c.linked) c = renamed(ends, std::move(c));
+    for (auto& p : system.processes)
+        if (!p.linked()) each_reference(p, [&](std::string& target) { replace_id(names, target); });
+
+    std::set<std::string_view> neurons, synapses;
+    for (const auto& p : system.processes)
+        if (!p.linked())
+            for (const auto& g : p.groups) neurons.insert(g.neuron.type);
+    for (const auto& c : system.connections)
+        if (!c.linked) synapses.insert(synapse_of(c).type);
+    leave_types(system.neuron_types, out.file.neuron_types, neurons);
+    leave_types(system.synapse_types, out.file.synapse_types, synapses);
+    return out;
+}
+
+void dissolve(System& system, std::string_view id) {
+    const Process& use = process_with(system, id);
+    if (!use.within.empty())
+        throw Refused(fmt::format("process '{}' is in the file of another process", trim(use.name)),
+                      "dissolve that one");
+    if (!use.linked())
+        throw Refused(fmt::format("process '{}' has no file of its own", trim(use.name)),
+                      "only a process that uses a file can be dissolved");
+    System embedded = system;
+    embed_links(embedded);
+    const GroupIndex groups(system);
+    const auto is_in_use = [&](const Process* p) {
+        while (p && p->id != id) p = outer(system, *p);
+        return p != nullptr;
+    };
+    std::set<std::string_view> types;
+    std::vector<std::size_t> processes, connections;
+    for (std::size_t i = 0; i < system.processes.size(); ++i)
+        if (is_in_use(&system.processes[i])) {
+            processes.push_back(i);
+            for (const auto& g : system.processes[i].groups) types.insert(g.neuron.type);
+        }
+    for (std::size_t i = 0; i < system.connections.size(); ++i)
+        if (const auto& c = system.connections[i]; c.linked && is_in_use(groups.find(c.source).process) &&
+                                                   is_in_use(groups.find(c.target).process)) {
+            connections.push_back(i);
+            types.insert(synapse_of(c).type);
+        }
+    for (auto* declared : {&system.neuron_types, &system.synapse_types})
+        for (auto& type : *declared)
+            if (types.contains(type.name)) type.linked = false;
+    for (const auto i : processes) system.processes[i] = std::move(embedded.processes[i]);
+    for (const auto i : connections) system.connections[i] = std::move(embedded.connections[i]);
 }
 
 }  // namespace forage::model

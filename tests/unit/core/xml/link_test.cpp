@@ -7,6 +7,8 @@
 #include "core/model/constants.h"
 #include "core/model/edit.h"
 #include "core/model/lookup.h"
+#include "core/model/parts.h"
+#include "core/model/refused.h"
 #include "core/xml/patch.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
@@ -286,4 +288,81 @@ TEST_CASE("an extracted process has its types, and ports for the connections tha
   <Connection id="c" name="C" source="x.a" target="y.a"><Synapse name="synapseFixedWeight"/></Connection></System>)");
     INFO(format(parts.diagnostics));
     CHECK(again);
+}
+
+TEST_CASE("a use that is dissolved keeps its ids and numbers, and others stay uses") {
+    Parts parts;
+    auto s = parts.read(nested);
+    REQUIRE(s);
+    const auto before = *s;
+    CHECK_THROWS_AS(model::dissolve(*s, "a.inner"), model::Refused);  // in the file of another one
+    CHECK_THROWS_AS(model::dissolve(*s, "c"), std::invalid_argument);
+    model::dissolve(*s, "a");
+    CHECK_THROWS_AS(model::dissolve(*s, "a"), model::Refused);
+    const auto patch =
+        xml::patch((parts.folder.path / "system.iqr").string(), std::string(nested), before, *s, false);
+    INFO(patch.text << format(patch.diagnostics));
+    REQUIRE(patch.system);
+    CHECK_FALSE(patch.diagnostics.failed());
+    CHECK(model::group_paths(*patch.system) == model::group_paths(before));
+    for (const char* id : {"a.x", "a.inner.c", "b.x", "b.inner.c"})
+        CHECK(weight(*patch.system, id) == weight(before, id));
+    CHECK(patch.text.find("NeuronType name=\"unit\"") != std::string::npos);
+    CHECK(patch.text.find("<Process id=\"b\" name=\"B\" path=\"whole.iqrProcess\">") != std::string::npos);
+    CHECK(patch.text.find("source=\"a.sum\" target=\"b.in\"") != std::string::npos);
+}
+
+TEST_CASE("a process becomes a part, with the ids and numbers that it had") {
+    Parts parts;
+    const std::string text = R"(<System id="s" name="S"><Constant name="n" value="2"/>
+  <NeuronType name="unit"><Equations>output y = exc</Equations></NeuronType>
+  <!-- about P -->
+  <Process id="p" name="P">)" +
+                             group("p.a", "unit") + group("p.b", "unit") + R"(</Process>
+  <Process id="q" name="Q">)" +
+                             group("z", "neuronLinearThreshold") +
+                             R"(</Process>
+  <Connection id="p.c" name="C" source="p.a" target="p.b"><Synapse name="synapseFixedWeight"/></Connection>
+  <Connection id="out" name="Out" source="p.b" target="z"><Synapse name="synapseFixedWeight"/></Connection></System>)";
+    const auto made_of = [&](const std::string& system) {
+        auto s = parts.read(system);
+        INFO(format(parts.diagnostics));
+        REQUIRE(s);
+        const auto before = *s;
+        auto made = model::make_part(*s, "p", "p.iqrProcess");
+        parts.folder.write("p.iqrProcess", xml::write_process(made.file));
+        auto patch = xml::patch((parts.folder.path / "system.iqr").string(), system, before, *s, false);
+        INFO(patch.text << "\n" << xml::write_process(made.file) << format(patch.diagnostics));
+        REQUIRE(patch.system);
+        CHECK_FALSE(patch.diagnostics.failed());
+        return std::pair(made.renamed, patch);
+    };
+    SECTION("its ids begin with that of the process") {
+        const auto [renamed, patch] = made_of(text);
+        CHECK(renamed.empty());
+        CHECK(patch.text.find("<!-- about P -->") != std::string::npos);
+        CHECK(patch.text.find("NeuronType") == std::string::npos);  // only the part needs it
+        const auto& s = *patch.system;
+        CHECK(model::group_paths(s) == std::vector<std::string>{"P/p.a", "P/p.b", "Q/z"});
+        const auto& out = s.connections.at(0).id == "out" ? s.connections.at(0) : s.connections.at(1);
+        CHECK(out.source == "p.b");
+        const auto set = model::with(s, {model::Assignment::Owner::constant, "n", nullptr, {}, "n=5", {}});
+        CHECK(model::shape(std::ranges::find(set.processes, "p", &model::Process::id)->groups[0].topology)
+                  .cells == 5);
+        auto back = s;
+        model::dissolve(back, "p");
+        CHECK(std::ranges::none_of(back.processes, &model::Process::linked));
+    }
+    SECTION("others get such ids") {
+        const auto [renamed, patch] = made_of(
+            replaced(replaced(replaced(text, "id=\"p.a\"", "id=\"a\""), "source=\"p.a\"", "source=\"a\""),
+                     "id=\"p.c\"", "id=\"c\""));
+        CHECK(renamed == std::vector<std::string>{"p.a", "p.c"});
+        CHECK(patch.system->processes[0].ports.size() == 1);
+    }
+    SECTION("without connections to others, all groups are ports") {
+        const auto [renamed, patch] =
+            made_of(replaced(text, "source=\"p.b\" target=\"z\"", "source=\"z\" target=\"z\""));
+        CHECK(patch.system->processes[0].ports.size() == 2);
+    }
 }
