@@ -70,9 +70,10 @@ void refuse_as_part(const System& system, const Process& p) {
     });
 }
 
-/// Takes `prefix` from the ids of a file, where they have it, unless two items would then have one id.
-/// Returns the new ids by the old ones.
+/// The opposite of name_use(): takes the name of the process from names, and `prefix` from the ids of a file,
+/// where they have it, unless two items would then have one id. Returns the new ids by the old ones.
 Names without_prefix(ProcessFile& file, const std::string& prefix) {
+    const std::string name = std::string(trim(file.process.name)) + ".";
     Names names;
     std::set<std::string> known{file.process.id};
     bool unique = true;
@@ -88,7 +89,10 @@ Names without_prefix(ProcessFile& file, const std::string& prefix) {
         if (port.name == port.group) replace_id(names, port.name);
         replace_id(names, port.group);
     }
-    for (auto& c : file.connections) replace_id(names, c.source), replace_id(names, c.target);
+    for (auto& c : file.connections) {
+        replace_id(names, c.source), replace_id(names, c.target);
+        if (c.name.starts_with(name)) c.name.erase(0, name.size());
+    }
     return names;
 }
 
@@ -174,7 +178,6 @@ MadePart make_part(System& system, std::string_view id, const std::string& path)
     refuse_as_part(system, before);
     MadePart out{extract_process(system, id), {}};
     auto& part = out.file.process;
-    part.comments.clear();  // they stay before the use
     for (auto* types : {&out.file.neuron_types, &out.file.synapse_types})
         for (auto& type : *types) type.linked = false;
     if (part.ports.empty())

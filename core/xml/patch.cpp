@@ -318,6 +318,8 @@ bool same_content(const model::System& a, const model::System& b) {
     // Of a linked process, the file has only the link.
     const auto content = [](model::System s) {
         s.comments.clear();
+        for (auto* types : {&s.neuron_types, &s.synapse_types})
+            std::erase_if(*types, [](const model::TypeDeclaration& type) { return type.linked; });
         for (auto& p : s.processes) {
             if (p.linked()) p = model::Process(p.placeholder.front());
             p.comments.clear();

@@ -307,6 +307,7 @@ TEST_CASE("a use that is dissolved keeps its ids and numbers, and others stay us
     CHECK(model::group_paths(*patch.system) == model::group_paths(before));
     for (const char* id : {"a.x", "a.inner.c", "b.x", "b.inner.c"})
         CHECK(weight(*patch.system, id) == weight(before, id));
+    CHECK(patch.extent == xml::Extent::least);
     CHECK(patch.text.find("NeuronType name=\"unit\"") != std::string::npos);
     CHECK(patch.text.find("<Process id=\"b\" name=\"B\" path=\"whole.iqrProcess\">") != std::string::npos);
     CHECK(patch.text.find("source=\"a.sum\" target=\"b.in\"") != std::string::npos);
@@ -334,6 +335,7 @@ TEST_CASE("a process becomes a part, with the ids and numbers that it had") {
         auto patch = xml::patch((parts.folder.path / "system.iqr").string(), system, before, *s, false);
         INFO(patch.text << "\n" << xml::write_process(made.file) << format(patch.diagnostics));
         REQUIRE(patch.system);
+        CHECK(patch.extent == xml::Extent::least);
         CHECK_FALSE(patch.diagnostics.failed());
         return std::pair(made.renamed, patch);
     };
@@ -352,6 +354,8 @@ TEST_CASE("a process becomes a part, with the ids and numbers that it had") {
         auto back = s;
         model::dissolve(back, "p");
         CHECK(std::ranges::none_of(back.processes, &model::Process::linked));
+        CHECK(model::find_connection(back, "p.c")->name == "P.C");
+        CHECK(model::make_part(back, "p", "p.iqrProcess").file.connections.at(0).name == "C");
     }
     SECTION("others get such ids") {
         const auto [renamed, patch] = made_of(
