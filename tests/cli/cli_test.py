@@ -669,6 +669,36 @@ class Edit(Cli):
         self.assertTrue((self.here / "dangling.iqr").is_symlink() and (self.here / "made.iqr").is_file())
         self.assertIn("Pillar", world.read_text())
 
+    def test_a_part_is_used_dissolved_and_made_with_the_same_numbers(self):
+        shutil.copytree(PROJECT / "systems/parts", self.here / "parts")
+        tour, made = "parts/tour.iqr", self.here / "parts/mine.iqrProcess"
+
+        def numbers():
+            shutil.rmtree(self.here / "out", ignore_errors=True)
+            self.forage("run", tour, "--cycles", "50", "--clamp", "In/Drive=1", "--record", "Pair/Cells", "--record", "Left BG/GPi", "-o", "out")
+            return {f.name: f.read_bytes() for f in sorted(self.here.glob("out/*.csv"))}
+
+        before, text = numbers(), (self.here / tour).read_text()
+        self.assertTrue(before)
+        self.assertEqual(self.forage("edit", tour, '[{"do": "dissolve", "id": "pair"}, {"do": "dissolve", "id": "left"}]').stdout, "")
+        self.assertNotIn("half_centre.iqrProcess", (self.here / tour).read_text())
+        self.assertEqual((self.here / tour).read_text().splitlines()[:3], text.splitlines()[:3])
+        self.assertEqual(numbers(), before)
+        operation = '{"do": "make_part", "id": "pair", "file": "parts/mine.iqrProcess"}'
+        self.assertEqual(self.forage("edit", tour, operation).stderr, "")
+        self.assertIn('path="mine.iqrProcess"', (self.here / tour).read_text())
+        self.assertEqual(numbers(), before)
+        self.assertEqual(self.forage("edit", tour, '{"do": "use_part", "file": "parts/half_centre.iqrProcess", "id": "third"}').stdout, "third\n")
+        self.assertIn('<Process id="third" name="Half-centre"', (self.here / tour).read_text())
+        kept = made.read_text()
+        self.assertIn("exists", self.forage("edit", tour, operation.replace("pair", "in"), status=2).stderr)
+        failing = f'[{operation.replace("pair", "in").replace("mine", "other")}, {{"do": "grow"}}]'
+        self.assertIn("there is no operation 'grow'", self.forage("edit", tour, failing, status=2).stderr)
+        self.assertEqual(made.read_text(), kept)
+        self.assertFalse((self.here / "parts/other.iqrProcess").exists())
+        said = self.forage("edit", tour, operation.replace("pair", "in").replace("mine", "other")).stderr
+        self.assertIn("runs draw other random numbers", said)
+
     def test_mistakes(self):
         (self.here / "small.iqr").write_text(SMALL_SYSTEM)
         self.assertIn("there is no operation 'grow'", self.forage("edit", "small.iqr", '[{"do": "grow"}]', status=2).stderr)

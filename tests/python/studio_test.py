@@ -122,6 +122,9 @@ def test_edits_are_repeated_in_the_shell_and_what_has_no_form_says_so(tmp_path, 
         page.do("pause")
         page.do("edit", operations=[{"do": "rename", "id": group.id, "name": "Écho '1'"}])
         page.do("edit", operations=[{"do": "system", "author": "Ada"}])
+        part = page.do("edit", operations=[{"do": "use_part", "file": str(SYSTEMS / "parts/half_centre.iqrProcess")}])["ids"][0]
+        page.do("edit", operations=[{"do": "use_part", "file": str(SYSTEMS / "parts/gates.iqrProcess")}])
+        page.do("edit", operations=[{"do": "dissolve", "id": part}])
         page.do("save")
         page.do("save", file=str(third))
         written = [(m["python"], m["shell"]) for m in page.messages if m["type"] == "action"]
@@ -252,6 +255,17 @@ def test_operations_are_carried_out_all_or_none():
         assert system == before
     with pytest.raises(TypeError):
         system.edit([{"do": object()}])
+
+
+def test_a_process_becomes_a_part_in_python(tmp_path):
+    system = forage.System.read(SYSTEMS / "parts/tour.iqr")
+    groups = [g.id for g in system.groups]
+    assert system.edit([{"do": "dissolve", "id": "race"}, {"do": "make_part", "id": "race", "file": str(tmp_path / "race.iqrProcess")}]) == [None, None]
+    assert [g.id for g in system.groups] == groups
+    with pytest.warns(forage.InputWarning, match="runs draw other random numbers"):
+        assert "in.drive" in system.edit({"do": "make_part", "id": "in", "file": str(tmp_path / "in.iqrProcess")})[0]
+    with pytest.raises(forage.InputError, match="exists"):
+        system.edit([{"do": "dissolve", "id": "in"}, {"do": "make_part", "id": "in", "file": str(tmp_path / "in.iqrProcess")}])
 
 
 def test_robots_are_moved_and_begin_trials(dac):

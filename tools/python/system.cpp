@@ -107,7 +107,8 @@ std::string as_json(const py::object& operations) {
 py::object from_json(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
 
 py::object edit_system(PythonSystem& self, const py::object& operations) {
-    return from_json(edit(self, as_json(operations)));
+    return from_json(
+        warned([&](Diagnostics* warnings) { return edit(self, as_json(operations), warnings); }));
 }
 
 py::object edit_the_file(const Path& path, const py::object& operations, const std::optional<Path>& save_as,

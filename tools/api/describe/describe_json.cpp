@@ -81,6 +81,12 @@ json comments_of(const std::vector<model::CanvasComment>& comments) {
     return out;
 }
 
+json ports_of(const model::Process& process) {
+    json out = json::array();
+    if (!process.linked()) return out;
+    for (const auto& port : process.ports) out.push_back({{"name", port.name}, {"group", port.group}});
+    return out;
+}
 json phantoms_of(const std::vector<model::Phantom>& phantoms) {
     json out = json::array();
     for (const auto& p : phantoms) out.push_back({{"group", p.group}, {"x", p.x}, {"y", p.y}});
@@ -171,6 +177,9 @@ json describe_system(const model::System& system, const Registry& registry, cons
                              {"note", process.notes},
                              {"icon", icon_of(p.icon)},
                              {"linked", p.linked()},
+                             {"file", p.path},
+                             {"within", p.within},
+                             {"ports", ports_of(p)},
                              {"enabled", process.module_enabled},
                              {"module", module_of(p)},
                              {"comments", comments_of(p.canvas_comments)},

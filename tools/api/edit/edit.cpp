@@ -9,6 +9,7 @@
 #include "core/base/output_files.h"
 #include "core/model/refused.h"
 #include "tools/api/edit/document.h"
+#include "tools/api/edit/edit_files.h"
 #include "tools/api/edit/json_text.h"
 #include "tools/api/edit/operations.h"
 #include "tools/api/edit/world_operations.h"
@@ -92,27 +93,33 @@ json edit_system(const std::string& path, const json& operations, const std::str
     throw_errors(diagnostics);
     const auto before = document.problems(types);
     json made = json::array();
+    editing::EditFiles files(path);
     document.edit([&](model::System& system) {
         for (std::size_t i = 0; i < operations.size(); ++i)
-            made.push_back(
-                attempt(operations, i, [&](const json& o) { return editing::carry_out(o, system, types); }));
+            made.push_back(attempt(
+                operations, i, [&](const json& o) { return editing::carry_out(o, system, types, files); }));
     });
     prepare(save_as);
     document.save(save_as == path ? std::string() : save_as, types, true);
+    files.keep();
+    for (const auto& warning : files.warnings.all()) warnings.add(warning);
     add_new_problems(before, document.problems(types), warnings);
     return made;
 }
 
 }  // namespace
 
-std::string edit(SystemFile& file, const std::string& operations) {
+std::string edit(SystemFile& file, const std::string& operations, Diagnostics* warnings) {
     const json all = list_of(operations);
     model::System edited = file.model;
     json made = json::array();
+    editing::EditFiles files(file.path);
     for (std::size_t i = 0; i < all.size(); ++i)
-        made.push_back(
-            attempt(all, i, [&](const json& o) { return editing::carry_out(o, edited, *file.types); }));
+        made.push_back(attempt(
+            all, i, [&](const json& o) { return editing::carry_out(o, edited, *file.types, files); }));
+    files.keep();
     file.model = std::move(edited);
+    if (warnings) *warnings = std::move(files.warnings);
     return made.dump();
 }
 

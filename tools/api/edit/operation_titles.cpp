@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -53,6 +54,10 @@ std::string title_of(const json& o, const System& system) {
     if (what == "comment") return "change " + name;
     if (what == "rename") return fmt::format("rename {} to {}", name, text_in(o, "name"));
     if (what == "set") return fmt::format("{} of {}", text_in(o, "property"), name);
+    if (what == "use_part")
+        return "add " + text_in(o, "name", std::filesystem::path(text_in(o, "file")).stem().string());
+    if (what == "make_part") return fmt::format("make a part of {}", name);
+    if (what == "dissolve") return "dissolve " + name;
     if (what == "paste") return "paste";
     if (what == "system") return "properties of the system";
     return fmt::format("{} of {}", what, name);

@@ -9,11 +9,13 @@
 #include "core/model/build.h"
 #include "core/model/lookup.h"
 #include "core/model/operations.h"
+#include "core/model/parts.h"
 #include "core/run/input_error.h"
 #include "core/types/registry.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
 #include "tools/api/edit/forms.h"
+#include "tools/api/edit/part_operations.h"
 
 namespace forage::editing {
 
@@ -29,6 +31,7 @@ constexpr const char* kinds[] = {"excitatory", "inhibitory", "modulatory"};  ///
 struct SystemEdit {
     System& system;
     const Registry& registry;
+    EditFiles& files;
     json o = {};  ///< the operation
 
     std::string text(const char* member) const { return o.at(member).get<std::string>(); }
@@ -181,6 +184,17 @@ struct SystemEdit {
         throw_errors(diagnostics);
         return import_process(system, std::move(*file));
     }
+    json use_part() {
+        const auto made = editing::use_part(system, text("file"), text("name"), text("id"), files);
+        place_new(made);
+        return made;
+    }
+    json make_part() {
+        const auto renamed = editing::make_part(system, registry, text("id"), text("file"),
+                                                o.at("overwrite").get<bool>(), files);
+        return renamed.empty() ? json() : json(renamed);
+    }
+    json dissolve() { return model::dissolve(system, text("id")), nullptr; }
     json system_properties() {
         if (const auto* v = member("name")) {
             if (model::trim(v->get_ref<const std::string&>()).empty())
@@ -337,6 +351,26 @@ const std::vector<Operation<SystemEdit>>& system_operations() {
              "Adds a copy of the process of a file, under new ids.",
              {{"file", path(), "`.iqrProcess`"}},
              &SystemEdit::import},
+            {"use_part",
+             "Adds a process that uses a file. Its groups are those of the file, and are changed there.",
+             {{"file", path(), "`.iqrProcess`"},
+              optional("name", text(), "", "by default that in the file"),
+              placed("x"),
+              placed("y"),
+              made},
+             &SystemEdit::use_part},
+            {"make_part",
+             "Writes a process into a file, with ports for the groups that connections to other processes "
+             "reach, and makes the system use the file. Runs give the same numbers if the ids of the "
+             "process's groups and connections begin with that of the process and a point; the others get "
+             "such ids, and are returned. Undo takes the use back, and leaves the file.",
+             {id, {"file", path(), "`.iqrProcess`"}, optional("overwrite", boolean(), false)},
+             &SystemEdit::make_part},
+            {"dissolve",
+             "Makes the content of a process that uses a file, and of the files that it uses, groups and "
+             "connections of the system. Ids and numbers stay.",
+             {id},
+             &SystemEdit::dissolve},
             {"system",
              "Changes properties of the system.",
              {optional("name", text()), optional("author", text()), optional("date", text()),
@@ -369,9 +403,9 @@ void check_characters(const json& value) {
 
 }  // namespace
 
-json carry_out(const json& operation, System& system, const Registry& registry) {
+json carry_out(const json& operation, System& system, const Registry& registry, EditFiles& files) {
     check_characters(operation);
-    return carry_out(system_operations(), operation, SystemEdit{system, registry});
+    return carry_out(system_operations(), operation, SystemEdit{system, registry, files});
 }
 
 }  // namespace forage::editing

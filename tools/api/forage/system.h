@@ -50,8 +50,9 @@ std::string plugin_source(const SystemFile& file, const std::string& type);
 
 /// Carries out an operation of an editor or a list of them, JSON as in the command `edit` of the studio
 /// (docs/design/studio-protocol.md): all of them, or none when one is refused. Returns a JSON list of what
-/// each has made: an id, a list of ids, or null. Throws InputError.
-std::string edit(SystemFile& file, const std::string& operations);
+/// each has made: an id, a list of ids, or null. What else it has changed gets into `warnings`, if it is not
+/// null. Throws InputError.
+std::string edit(SystemFile& file, const std::string& operations, Diagnostics* warnings = nullptr);
 /// Does the same in a file, a system (.iqr) or a world (.world; the command `world_edit`), and writes it:
 /// into `save_as` unless that is empty. Everything else in the file stays as its author wrote it. What is
 /// wrong with a system only since the edit gets into `warnings`, if it is not null. Throws InputError and

@@ -29,29 +29,6 @@ bool is_shown(const fs::path& file) {
     return std::ranges::find(endings, file.extension().string()) != std::end(endings);
 }
 
-model::ProcessFile process_file(const std::string& path) {
-    Diagnostics diagnostics;
-    auto file = xml::read_process(path, diagnostics);
-    if (!file) throw InputError(std::move(diagnostics));
-    return *std::move(file);
-}
-
-/// The ids in a file without ports stay as they are, so that they must be free.
-void refuse_taken_ids(const model::System& system, const model::ProcessFile& file, const std::string& path) {
-    const auto refuse_taken = [&](const std::string& id) {
-        const auto has_it = [&](const auto& item) { return item.id == id; };
-        const auto in_process = [&](const auto& p) {
-            return has_it(p) || std::ranges::any_of(p.groups, has_it);
-        };
-        if (std::ranges::any_of(system.processes, in_process) ||
-            std::ranges::any_of(system.connections, has_it))
-            throw InputError(fmt::format("'{}' has the id '{}', which the system has, too", path, id),
-                             "import the process instead: it gets ids of its own");
-    };
-    for (const auto& g : file.process.groups) refuse_taken(g.id);
-    for (const auto& connection : file.connections) refuse_taken(connection.id);
-}
-
 json read_document(Session& s, const Request&) {
     s.check_file_on_disk();
     const auto& text = s.edited.document->text();
@@ -136,40 +113,12 @@ json reload_document(Session& s, const Request& r) {
     return {{"generation", s.edited.generation}};
 }
 
-/// Adds an empty process whose content is in a file.
-std::string add_link(model::System& system, const model::ProcessFile& file, const std::string& path,
-                     const std::string& own) {
-    const std::string first(model::trim(file.process.name));
-    std::string name = first;
-    const auto is_taken = [&](const auto& p) { return model::trim(p.name) == name; };
-    for (int n = 2; std::ranges::any_of(system.processes, is_taken); ++n)
-        name = fmt::format("{} {}", first, n);
-    auto made = model::add_process(system, name, model::fresh_id(system, file.process.id));
-    model::find_process(system, made)->path =
-        own.empty()  // before the first save
-            ? fs::absolute(path).string()
-            : fs::relative(fs::absolute(path), fs::absolute(own).parent_path()).generic_string();
-    return made;
-}
-
 json import_process_file(Session& s, const Request& r) {
-    auto& document = *s.edited.document;
     const auto path = r.text("file");
-    const bool link = r.flag("link");
-    check_readable(path, {FileKind::process});
-    auto file = process_file(path);
-    const std::string title = "import " + fs::path(path).filename().string();
-    if (link && file.process.ports.empty()) refuse_taken_ids(document.system(), file, path);
-    std::string made;
-    const std::string before = document.text();
-    document.edit([&](model::System& system) {
-        made = link ? add_link(system, file, path, document.path())
-                    : model::import_process(system, std::move(file));
-    });
-    const json operations = {{{"do", "import"}, {"file", path}}};
-    json out = follow_edit(s, {.title = title, .system = before},
-                           link ? Equivalent() : of_edit(s.edited_file(document.path()), operations));
-    out["id"] = made;
+    const json operation = {{"do", r.flag("link") ? "use_part" : "import"}, {"file", path}};
+    json out = edit_document(s, json::array({operation}), "import " + fs::path(path).filename().string());
+    out["id"] = out["ids"][0];
+    out.erase("ids"), out.erase("warnings");
     return out;
 }
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -8,6 +9,7 @@
 #include "tools/api/describe/describe_json.h"
 #include "tools/api/edit/forms.h"
 #include "tools/api/edit/operations.h"
+#include "tools/api/edit/part_operations.h"
 #include "tools/studio/server/commands/shared.h"
 #include "tools/studio/server/page_paths.h"
 #include "tools/studio/server/problems.h"
@@ -177,28 +179,35 @@ Equivalent script_edit(const Session& s, json operations, const json& ids) {
     return of_edit(s.edited_file(s.edited.document->path()), operations);
 }
 
-json edit_document(Session& s, const Request& r) {
-    auto& document = *s.edited.document;
-    const auto& operations = r["operations"];
-    if (operations.empty()) throw InputError("there is no operation");
-    std::string title = r.text("title");
-    if (title.empty()) {
-        title = title_of(operations.front(), document.system());
-        if (operations.size() > 1) title += fmt::format(" and {} more", operations.size() - 1);
+/// Throws InputError for a file of an operation that pages may not read or write.
+void check_files(const Session& s, const json& operations) {
+    for (const auto& o : operations) {
+        const auto file = o.find("file");
+        if (file == o.end() || !file->is_string()) continue;
+        const auto path = file->get<std::string>();
+        const json what = o.value("do", json());
+        if (what == "import" || what == "use_part") check_readable(path, {FileKind::process});
+        if (what == "make_part")
+            check_writable(s, path, FileKind::process, o.value("overwrite", json()) == true);
     }
-    for (const auto& o : operations)
-        if (const auto file = o.find("file");
-            file != o.end() && file->is_string() && o.value("do", json()) == "import")
-            check_readable(file->get<std::string>(), {FileKind::process});
-    json ids = json::array();
-    const std::string before = document.text();
-    document.edit([&](model::System& system) {
-        for (const auto& o : operations) ids.push_back(carry_out(o, system, s.run().registry()));
-    });
-    json out = follow_edit(s, {.title = title, .merge = r.text("merge"), .system = before},
-                           script_edit(s, operations, ids));
-    out["ids"] = std::move(ids);
-    return out;
+}
+
+json list_parts(Session& s, const Request&) {
+    json out = json::array();
+    const auto add = [&](const std::filesystem::path& folder, bool shipped) {
+        for (const auto& part : editing::parts_in(folder.string()))
+            out.push_back({{"file", part.file},
+                           {"name", part.name},
+                           {"about", part.about},
+                           {"ports", part.ports},
+                           {"constants", part.constants},
+                           {"shipped", shipped}});
+    };
+    const auto library = std::filesystem::path(s.shipped()) / "parts";
+    std::error_code ignored;
+    if (!std::filesystem::equivalent(system_folder(s), library, ignored)) add(system_folder(s), false);
+    if (!s.shipped().empty()) add(library, true);
+    return {{"parts", std::move(out)}};
 }
 
 /// The number of synapses of a connection of the document; 0 when it cannot be built.
@@ -272,12 +281,36 @@ constexpr const char* connection_parts[] = {"pattern", "arborization", "attenuat
 json preview_connection(Session& s, const Request& r) {
     model::System system = s.edited.document->system();
     const auto id = r.text("connection");
+    editing::EditFiles files(s.edited.document->path());
     for (const char* part : connection_parts)
-        if (r.has(part)) carry_out({{"do", part}, {"id", id}, {part, r[part]}}, system, s.run().registry());
+        if (r.has(part))
+            carry_out({{"do", part}, {"id", id}, {part, r[part]}}, system, s.run().registry(), files);
     return describe_synapses(system, id, s.run().seed(), max_pairs);
 }
 
 }  // namespace
+
+json edit_document(Session& s, const json& operations, std::string title, const std::string& merge) {
+    auto& document = *s.edited.document;
+    if (operations.empty()) throw InputError("there is no operation");
+    if (title.empty()) {
+        title = title_of(operations.front(), document.system());
+        if (operations.size() > 1) title += fmt::format(" and {} more", operations.size() - 1);
+    }
+    check_files(s, operations);
+    json ids = json::array(), warnings = json::array();
+    const std::string before = document.text();
+    editing::EditFiles files(document.path());
+    document.edit([&](model::System& system) {
+        for (const auto& o : operations) ids.push_back(carry_out(o, system, s.run().registry(), files));
+    });
+    files.keep();
+    for (const auto& warning : files.warnings.all()) warnings.push_back(warning.message);
+    json out = follow_edit(s, {.title = std::move(title), .merge = merge, .system = before},
+                           script_edit(s, operations, ids));
+    out["ids"] = std::move(ids), out["warnings"] = std::move(warnings);
+    return out;
+}
 
 json follow_edit(Session& s, UndoStep step, const Equivalent& script) {
     if (s.edited.document->text() != *step.system) {
@@ -302,9 +335,17 @@ std::vector<Command> editing_commands() {
                 "that each "
                 "one made, a list of ids, or null.",
          .arguments = {{"operations", list(record({}, "Operation"))}, optional("title", text(), ""), merge},
-         .result = "{ ids: (string | string[] | null)[]; generation: number }",
+         .result = "{ ids: (string | string[] | null)[]; warnings: string[]; generation: number }",
          .changes_run = true,
-         .apply = edit_document},
+         .apply =
+             [](Session& s, const Request& r) {
+                 return edit_document(s, r["operations"], r.text("title"), r.text("merge"));
+             }},
+        {.name = "parts",
+         .doc = "Lists the parts that the operation `use_part` can add: the process files with ports in the "
+                "folder of the system, and those that come with Forage.",
+         .result = "{ parts: PartSummary[] }",
+         .apply = list_parts},
         {.name = "item",
          .doc =
              "Describes an item and its text. What is `linked` is in the file of a linked process, what has "

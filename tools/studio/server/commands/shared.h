@@ -33,6 +33,10 @@ json describe_item_parameters(Session& session, const std::string& item);
 // ---- steps of undo ----
 /// Carries out an action of the run as a step. `step` holds what else it has changed, and its `merge`.
 json take_step(Session& session, const json& action, LoggedAction logged, UndoStep step = {});
+/// Carries out operations on the system as one step; an empty title is that of the first one. Returns what
+/// they have made, the generation, and warnings.
+json edit_document(Session& session, const json& operations, std::string title = {},
+                   const std::string& merge = {});
 /// Follows a step of the document, which holds the text before. `script` is empty for an edit of the text.
 json follow_edit(Session& session, UndoStep step, const Equivalent& script = {});
 

@@ -1266,3 +1266,46 @@ TEST_CASE("edits of a world that were not saved survive the death of the program
     e.result({{"command", "undo"}});
     CHECK(e.result({{"command", "world_document"}})["items"].dump().find("#123456") == std::string::npos);
 }
+
+TEST_CASE("a process becomes a part, which is used again and dissolved, each in one step") {
+    Editor e;
+    const std::string before = e.text();
+    const json process = e.last["system"]["processes"][0];
+    const auto id = process["id"].get<std::string>();
+    const std::string file = (e.folder / "mine.iqrProcess").string();
+    const json make = {{"do", "make_part"}, {"id", id}, {"file", file}};
+    CHECK(e.ask({{"command", "edit"},
+                 {"operations",
+                  {{{"do", "make_part"}, {"id", id}, {"file", e.folder / "mine.txt"}}}}})["ok"] == false);
+    // An edit that fails leaves no file.
+    CHECK(e.ask({{"command", "edit"}, {"operations", {make, {{"do", "grow"}}}}})["ok"] == false);
+    CHECK_FALSE(fs::exists(file));
+    const json made = e.result({{"command", "edit"}, {"operations", {make}}});
+    CHECK(made["warnings"].size() == (made["ids"][0].empty() ? 0 : 1));
+    json part = e.last["system"]["processes"][0];
+    CHECK(part["linked"] == true);
+    CHECK(part["file"] == "mine.iqrProcess");
+    CHECK(!part["ports"].empty());
+    CHECK(e.last["document"]["running_is_current"] == true);
+    const json exists = e.ask({{"command", "edit"}, {"operations", {make}}});
+    CHECK(exists["reason"] == "file_exists");
+
+    const json parts = e.result({{"command", "parts"}})["parts"];
+    REQUIRE(parts.size() == 1);
+    CHECK(parts[0]["file"] == file);
+    CHECK(parts[0]["ports"].size() == part["ports"].size());
+    const auto again = e.edit({{{"do", "use_part"}, {"file", file}, {"x", 300}, {"y", 20}}})[0];
+    CHECK(e.last["system"]["processes"].back()["id"] == again);
+    CHECK(e.last["system"]["processes"].back()["icon"]["x"] == 300);
+    e.result({{"command", "undo"}});
+
+    const std::string with_part = e.text();
+    e.edit({{{"do", "dissolve"}, {"id", id}}});
+    CHECK(e.last["system"]["processes"][0]["linked"] == false);
+    CHECK(e.last["system"]["processes"][0]["groups"].size() == process["groups"].size());
+    e.result({{"command", "undo"}});
+    CHECK(e.text() == with_part);
+    e.result({{"command", "undo"}});
+    CHECK(e.text() == before);
+    CHECK(fs::exists(file));
+}

@@ -133,7 +133,14 @@ TEST_CASE("no command shows or replaces a file of another kind, whatever its nam
                     fmt::format(R"(<System id="s" name="x"><Process id="p" name="P" path="{}"/></System>)",
                                 file)}});
             f.ask({{"command", "document"}}), f.ask({{"command", "undo"}});
-            f.ask({{"command", "edit"}, {"operations", {{{"do", "import"}, {"file", file}}}}});
+            for (const char* what : {"import", "use_part"})
+                f.ask({{"command", "edit"}, {"operations", {{{"do", what}, {"file", file}}}}});
+            const auto id = f.session->edited.document->system().processes.front().id;
+            const json made = f.ask(
+                {{"command", "edit"},
+                 {"operations", {{{"do", "make_part"}, {"id", id}, {"file", file}, {"overwrite", true}}}}});
+            CHECK(made["ok"] == false);
+            CHECK(read_file(file) == content);
         }
     }
     CHECK(f.sent.find(secret) == std::string::npos);

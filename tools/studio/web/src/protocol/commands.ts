@@ -1,5 +1,5 @@
 // The commands of the server. Made by tests/unit/tools/studio/server/protocol_test.cpp from tools/studio/server/commands.
-import type { DocumentMessage, Driven, EditItem, FilesResult, ItemParameters, LayoutContent, PanelRow, PreviewResult, Problem, SynapseTable, Trial, TypesResult, Vocabulary, WorldDocument, WorldKind } from './messages';
+import type { DocumentMessage, Driven, EditItem, FilesResult, ItemParameters, LayoutContent, PanelRow, PartSummary, PreviewResult, Problem, SynapseTable, Trial, TypesResult, Vocabulary, WorldDocument, WorldKind } from './messages';
 
 export interface Commands {
   /** Starts the run. */
@@ -240,7 +240,12 @@ export interface Commands {
   /** Carries out [operations](#operations), all of them or none, as one step. Returns the id that each one made, a list of ids, or null. */
   edit: {
     arguments: { operations: Operation[]; title?: string | null; merge?: string | null; generation?: number | null };
-    result: { ids: (string | string[] | null)[]; generation: number };
+    result: { ids: (string | string[] | null)[]; warnings: string[]; generation: number };
+  };
+  /** Lists the parts that the operation `use_part` can add: the process files with ports in the folder of the system, and those that come with Forage. */
+  parts: {
+    arguments: {};
+    result: { parts: PartSummary[] };
   };
   /** Describes an item and its text. What is `linked` is in the file of a linked process, what has `other_system` runs beside the system that is edited; both have no text and refuse operations. */
   item: {
@@ -382,6 +387,9 @@ export type Operation =
   | { do: 'ports'; id: string; inputs?: unknown | null; outputs?: unknown | null }
   | { do: 'paste'; text: string; process?: string | null; x: number; y: number }
   | { do: 'import'; file: string }
+  | { do: 'use_part'; file: string; name?: string | null; x?: number | null; y?: number | null; id?: string | null }
+  | { do: 'make_part'; id: string; file: string; overwrite?: boolean | null }
+  | { do: 'dissolve'; id: string }
   | { do: 'system'; name?: string | null; author?: string | null; date?: string | null; note?: string | null; port?: string | null; sync_plots?: boolean | null; cycles_per_second?: number | null };
 
 export type WorldOperation =

@@ -29,6 +29,8 @@ export type CanvasComment = { id: string; text: string; color: string; icon: Ico
 export type PhantomPlace = { group: string; x: number; y: number };
 
 export type ModulePort = { name: string; group: string };
+/** What other processes connect to in a process that uses a file: a name, and the group behind it. */
+export type PartPort = { name: string; group: string };
 
 export interface Process {
   id: string;
@@ -37,6 +39,12 @@ export interface Process {
   note: string;
   icon: Icon | null;
   linked: boolean;
+  /** The file that it uses, as the file that uses it has it; empty for none. */
+  file: string;
+  /** The process in whose file it is used; empty for those of the system. */
+  within: string;
+  /** None for a process of the system's own file. */
+  ports: PartPort[];
   enabled: boolean;
   module: { type: string; inputs: ModulePort[]; outputs: ModulePort[] } | null;
   groups: Group[];
@@ -252,6 +260,9 @@ export type Typed = { type: string; values: Record<string, ParameterValue> };
 
 export type Topology = { form: 'rect' | 'sparse'; width?: number; height?: number; wrap_x?: boolean; wrap_y?: boolean; points?: Place[] };
 export type Port = { name: string; label?: string; doc?: string; optional: boolean; group: string };
+
+/** A process file with ports, which a system can use. `about` is a sentence. */
+export type PartSummary = { file: string; name: string; about: string; ports: string[]; constants: string[]; shipped: boolean };
 
 /** `linked`: it is in the file of a linked process. `other_system`: it runs beside the system that is edited. */
 export type Common = { id: string; name: string; color?: string; note?: string; icon?: Icon | null; linked?: boolean; other_system?: boolean; text: string; parameters: ParameterInfo[] };
