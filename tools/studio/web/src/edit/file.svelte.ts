@@ -7,9 +7,10 @@ import { run } from '../stores/run.svelte';
 import { command, request } from '../studio';
 import { CommandError } from '../connection';
 import { baseName, editing, folderOf, sendAll } from './document.svelte';
+import { attempt } from './operations';
 import { worldFile } from './world.svelte';
 
-type FileAction = 'open' | 'save as' | 'import' | 'link' | 'export' | 'new' | 'world' | 'save the world';
+type FileAction = 'open' | 'save as' | 'import' | 'link' | 'export' | 'part' | 'new' | 'world' | 'save the world';
 
 /** A task of the dialog: which file it needs, and what it does with the file. */
 interface FileTask {
@@ -50,6 +51,21 @@ const tasks: Record<FileAction, (process: string) => FileTask> = {
     name: `${model.processes.find((p) => p.id === process)?.name}.iqrProcess`,
     act: (file, overwrite) => request('export', { process, file, overwrite }),
   }),
+  part: (id) => {
+    const name = model.processes.find((p) => p.id === id)?.name;
+    return {
+      title: 'Make a part',
+      verb: 'Make the part',
+      files: /\.iqrprocess$/i,
+      ending: '.iqrProcess',
+      name: `${name}.iqrProcess`,
+      folder: editing.shipped ? '.' : '',
+      act: async (file, overwrite) => {
+        await attempt({ do: 'make_part', id, file, overwrite });
+        actions.notify('info', `${name} uses ${baseName(file)} now.`);
+      },
+    };
+  },
   new: () => ({ title: 'New system', verb: 'Create', files: /\.world$/, act: () => request('new', { name: fileDialog.name.trim() || 'New system', world: fileDialog.world.trim() }) }),
   // A world finds its models from its own folder.
   world: () => ({

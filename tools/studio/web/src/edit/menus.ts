@@ -1,5 +1,6 @@
 // The menus of items, the same in the diagram and in the tree.
 import type { PageLine } from '../panels/diagram';
+import type { Process } from '../protocol/messages';
 import { dock } from '../stores/dock.svelte';
 import { frame } from '../stores/frame.svelte';
 import { model, weightStates } from '../stores/model.svelte';
@@ -26,6 +27,17 @@ export function rename(id: string): void {
   if (document.querySelector(`.svelte-flow__node[data-id="${CSS.escape(id)}"]`)) tools.renaming = id;
   else properties(id);
 }
+
+/** Makes the content of the file of a process groups and connections of the system. */
+export const dissolve = (id: string) => edit({ do: 'dissolve', id });
+
+/** Puts a process into a file, or the content of its file into the system. */
+export const partEntries = (p: Process): Entries =>
+  p.within
+    ? []
+    : p.linked
+    ? [{ label: 'Dissolve', name: `Dissolve ${p.name}`, act: () => dissolve(p.id) }]
+    : [{ label: 'Make a part of this…', name: `Make a part of ${p.name}`, disabled: p.groups.length === 0, act: () => fileDialog.open('part', p.id) }];
 
 /** What can be done with one item, or with all selected ones if it is among them. */
 function itemMenu(id: string): Entries {
@@ -66,7 +78,7 @@ function itemMenu(id: string): Entries {
       act: () => dock.plot({ kind: 'time', sources: [`mean(${path})`] }),
     }, { label: 'Drive by hand', act: () => dock.plot({ kind: 'manipulate', item: path }) });
   } else if (item.kind === 'process') {
-    first.push({ label: 'Show its groups', act: () => (selection.process = id) }, { label: 'Export…', act: () => fileDialog.open('export', id) });
+    first.push({ label: 'Show its groups', act: () => (selection.process = id) }, ...partEntries(item.process), { label: 'Export…', act: () => fileDialog.open('export', id) });
   } else {
     first.push(null, { label: 'Wiring', act: () => dock.plot({ kind: 'wiring', item: model.nameFor(item.connection) }) });
     for (const s of weightStates(item.connection)) first.push({ label: s.label, act: () => dock.plot({ kind: 'weights', item: model.nameFor(item.connection), state: s.name }) });

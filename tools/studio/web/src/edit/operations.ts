@@ -7,6 +7,7 @@ import { request } from '../studio';
 /** Sends operations, all of them or none. Resolves with the ids that were made. Rejects when they are refused, for a form that says so at its field. */
 export async function attempt(operations: Operation | Operation[], title?: string, merge?: string): Promise<(string | null)[]> {
   const result = await request('edit', { operations: [operations].flat(), ...(title ? { title } : {}), ...(merge ? { merge } : {}) });
+  for (const warning of result.warnings) actions.notify('info', warning);
   return (result.ids ?? []).flat();
 }
 

@@ -7,7 +7,8 @@ import { openText } from '../xml/place.svelte';
 import { editing } from './document.svelte';
 import { backup, fileDialog, quit, save, saveWorld } from './file.svelte';
 import type { Entries } from './menu.svelte';
-import { properties } from './menus';
+import { partEntries, properties } from './menus';
+import { palette } from './palette.svelte';
 import { worldFile } from './world.svelte';
 
 export function systemMenu(): Entries {
@@ -19,9 +20,11 @@ export function systemMenu(): Entries {
     { label: 'Save as…', keys: 'Ctrl Shift S', act: () => fileDialog.open('save as') },
     { label: 'Save a backup', keys: 'Ctrl B', disabled: !editing.file || editing.shipped, act: backup },
     null,
+    { label: 'Add a part…', act: () => palette.open([20, 20]) },
     { label: 'Import a process…', act: () => fileDialog.open('import') },
     { label: 'Link a process…', act: () => fileDialog.open('link') },
     { label: 'Export the process…', name: `Export the process ${process?.name}`, disabled: !process, act: () => fileDialog.open('export', process?.id) },
+    ...(process ? partEntries(process) : []),
     null,
     { label: 'Changes since the last save', act: () => dock.plot({ kind: 'difference' }) },
     { label: `Problems (${editing.problems.length})`, name: 'Show the problems', act: () => dock.plot({ kind: 'problems' }) },

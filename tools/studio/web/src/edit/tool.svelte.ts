@@ -6,10 +6,12 @@ export type Tool = 'select' | 'add' | 'comment' | ConnectionKind;
 
 export interface Pending {
   source: string;
+  /** The box at which it begins: that of the source, or of the process of which the source is a port. */
+  box: string;
   /** The point of the box that was clicked; null in its middle: the one that faces the other end. */
   anchor: number | null;
-  /** The process on whose page it began. */
-  page: string;
+  /** The process on whose page it began; null for the page of the system. */
+  page: string | null;
   /** Places on the page. */
   vertices: Point[];
 }

@@ -1,5 +1,5 @@
 // A page of the diagram: boxes and lines. Ids are those of the model, places those of the file, stretched by a fixed factor.
-import type { CanvasComment, Connection, ConnectionLine, Group, Icon, Process, SystemMessage } from '../protocol/messages';
+import type { CanvasComment, Connection, ConnectionLine, Group, Icon, PartPort, Process, SystemMessage } from '../protocol/messages';
 import { anchor, middleOfLongest, nearestPart, type Box, type Point } from './line';
 import { beside, firstMet, offsetOf } from './parallel_lines';
 
@@ -27,6 +27,8 @@ export interface PageLine {
   target: string;
   /** The connections that it stands for. */
   members: Connection[];
+  /** The ports at which it leaves and meets boxes of parts; empty at other boxes. */
+  ports: [string, string];
   /** Whether the file says how it is drawn on this page. */
   drawn: boolean;
   /** Its number among the lines that would lie on each other. */
@@ -46,22 +48,57 @@ export const toFile = (p: Point): [number, number] => [Math.round(p.x / scale), 
 
 export const commentBox = (item: CanvasComment): PageBox => ({ id: item.id, item, comment: true, phantom: false, placed: true, box: toBox(item.icon) });
 
-/** The connections of a page, with the boxes at which they end there. */
+/** The processes with a box on the page of a process, or of the system: those of its file. */
+const processesOn = (system: SystemMessage, process: Process | null): Process[] => system.processes.filter((p) => p.within === (process?.id ?? ''));
+
+/** The connections of a page, with the boxes at which they end there: on the page of a process, groups elsewhere have phantoms. */
 function linksOf(system: SystemMessage, process: Process | null): { connection: Connection; source: string; target: string }[] {
-  if (process) {
-    const own = new Set(process.groups.map((g) => g.id));
-    return system.connections.filter((c) => own.has(c.source) || own.has(c.target)).map((connection) => ({ connection, source: connection.source, target: connection.target }));
+  const byId = new Map(system.processes.map((p) => [p.id, p]));
+  const boxes = new Map<string, string>();
+  for (const p of system.processes) {
+    let outer: Process | undefined = p; // with a box on this page
+    while (outer && outer !== process && outer.within !== (process?.id ?? '')) outer = byId.get(outer.within);
+    if (outer) { for (const g of p.groups) boxes.set(g.id, outer === process ? g.id : outer.id); }
   }
-  const home = new Map(system.processes.flatMap((p) => p.groups.map((g) => [g.id, p.id] as const)));
   return system.connections.flatMap((connection) => {
-    const source = home.get(connection.source), target = home.get(connection.target);
-    return source && target && source !== target ? [{ connection, source, target }] : [];
+    const source = boxes.get(connection.source), target = boxes.get(connection.target);
+    if (!source && !target) return [];
+    if (source === target && source !== connection.source) return []; // inside of a box
+    if (!process && !(source && target)) return [];
+    return [{ connection, source: source ?? connection.source, target: target ?? connection.target }];
   });
+}
+
+const rowOfPorts = 14;
+/** The ports of a box that stands for a use of a part; none for other boxes. */
+const portsOf = ({ item, phantom }: PageBox): PartPort[] => (!phantom && 'ports' in item ? item.ports : []);
+/** How far below the upper edge of a box of this height its ports are, one after the other. */
+export function portRows(count: number, height: number): number[] {
+  const row = Math.min(rowOfPorts, (height - 34) / Math.max(1, count));
+  return Array.from({ length: count }, (_, i) => height - 4 - row * (count - i - 0.5));
+}
+/** Of several ports of a group, the first one is drawn for what arrives, the last one for what leaves. */
+function portOf(box: PageBox, group: string, leaves: boolean): string {
+  const ports = portsOf(box).filter((p) => p.group === group);
+  return (leaves ? ports[ports.length - 1] : ports[0])?.name ?? '';
+}
+/** Where a line to or from `other` meets a port: at the nearer side of the box. */
+function portPoint(b: PageBox, port: string, other: Point): Point | null {
+  const ports = portsOf(b), at = ports.findIndex((p) => p.name === port);
+  if (at < 0) return null;
+  return { x: b.box.x + (other.x < b.box.x + b.box.width / 2 ? 0 : b.box.width), y: b.box.y + portRows(ports.length, b.box.height)[at]! };
+}
+/** The group behind the port of a box that is the nearest to a point; that of a box of a group is its own. */
+export function groupAt(b: PageBox, p: Point): string | null {
+  if (!('groups' in b.item)) return b.id;
+  const ports = portsOf(b), rows = portRows(ports.length, b.box.height);
+  const distance = (i: number) => Math.abs(b.box.y + rows[i]! - p.y);
+  return ports.length ? ports[ports.reduce((best, _, i) => (distance(i) < distance(best) ? i : best), 0)]!.group : null;
 }
 
 /** The boxes and lines of the page of a process, or of the system's page. */
 export async function pageOf(system: SystemMessage, process: Process | null): Promise<Page> {
-  const items: (Group | Process)[] = process ? process.groups : system.processes;
+  const items: (Group | Process)[] = [...(process?.groups ?? []), ...processesOn(system, process)];
   const links = linksOf(system, process);
   const boxes: PageBox[] = items.map((item) => ({
     id: item.id,
@@ -139,7 +176,8 @@ function linesOf(process: Process | null, boxes: PageBox[], links: { connection:
     // Between processes, a line has vertices of its own on the page of each of the two.
     const list: VertexList = from.phantom ? 'target_vertices' : to.phantom ? 'source_vertices' : 'vertices';
     const vertices = (connection.line?.[list] ?? []).map(([x, y]) => ({ x: x * scale, y: y * scale }));
-    const key = process ? connection.id : `${source} ${target} ${connection.kind} ${JSON.stringify(vertices)}`;
+    const ports: PageLine['ports'] = [portOf(from, connection.source, true), portOf(to, connection.target, false)];
+    const key = process ? connection.id : `${source} ${target} ${connection.kind} ${JSON.stringify(vertices)} ${ports.join(' ')}`;
     const known = merged.get(key);
     if (known) {
       known.members.push(connection);
@@ -151,6 +189,7 @@ function linesOf(process: Process | null, boxes: PageBox[], links: { connection:
       source,
       target,
       members: [connection],
+      ports,
       drawn: process !== null && connection.line !== null && from.placed && to.placed,
       lane: 0,
       vertices,
@@ -186,9 +225,9 @@ function setLanes(lines: PageLine[], boxes: Map<string, PageBox>): void {
 }
 
 /** Between which points of which boxes a line is, in either direction. */
-function endsOf({ connection: { line }, drawn }: PageLine, from: PageBox, to: PageBox): string {
-  const end = (b: PageBox, number = 1) => (b.phantom || !(drawn || from.phantom || to.phantom) ? b.id : `${b.id}:${number}`);
-  return from === to ? from.id : [end(from, line?.source_anchor), end(to, line?.target_anchor)].sort().join(' ');
+function endsOf({ connection: { line }, drawn, ports }: PageLine, from: PageBox, to: PageBox): string {
+  const end = (b: PageBox, port: string, number = 1) => (port ? `${b.id}.${port}` : b.phantom || !(drawn || from.phantom || to.phantom) ? b.id : `${b.id}:${number}`);
+  return from === to ? from.id : [end(from, ports[0], line?.source_anchor), end(to, ports[1], line?.target_anchor)].sort().join(' ');
 }
 
 const centre = (b: Box): Point => ({ x: b.x + b.width / 2, y: b.y + b.height / 2 });
@@ -222,16 +261,17 @@ export function pointsOf(line: PageLine, from: PageBox, to: PageBox): Point[] {
 }
 
 /** Where a line without others beside it leaves and meets its boxes. */
-function endPoints({ connection, drawn, vertices }: PageLine, from: PageBox, to: PageBox): [Point, Point] {
+function endPoints({ connection, drawn, vertices, ports }: PageLine, from: PageBox, to: PageBox): [Point, Point] {
   const [a, b] = [from.box, to.box], first = vertices[0], last = vertices[vertices.length - 1];
+  const [p, q] = [portPoint(from, ports[0], first ?? centre(b)), portPoint(to, ports[1], last ?? centre(a))];
   if (from.phantom !== to.phantom) {
-    const inner = from.phantom ? anchor(b, connection.line?.target_anchor ?? 1) : anchor(a, connection.line?.source_anchor ?? 1);
+    const inner = q ?? p ?? (from.phantom ? anchor(b, connection.line?.target_anchor ?? 1) : anchor(a, connection.line?.source_anchor ?? 1));
     const next = (from.phantom ? first : last) ?? inner, outer = nearestOnBorder(from.phantom ? a : b, next);
     // A phantom may stand on any side of a box: what is behind the box is not drawn.
     return from.phantom ? [outer, firstMet(b, last ?? outer, inner)] : [firstMet(a, first ?? outer, inner), outer];
   }
-  if (drawn) return [anchor(a, connection.line!.source_anchor), anchor(b, connection.line!.target_anchor)];
-  return [border(a, first ?? centre(b)), border(b, last ?? centre(a))];
+  if (drawn) return [p ?? anchor(a, connection.line!.source_anchor), q ?? anchor(b, connection.line!.target_anchor)];
+  return [p ?? border(a, first ?? q ?? centre(b)), q ?? border(b, last ?? p ?? centre(a))];
 }
 
 /** A line from a box to itself, around its corner at the top and the right; each one around those before it. */

@@ -2,7 +2,7 @@
 import { hexColour, inkOn, paper } from '../draw/ink';
 import { escape } from '../draw/save';
 import type { CanvasComment, Group, Process } from '../protocol/messages';
-import { pointsOf, type PageBox, type PageLine } from './diagram';
+import { pointsOf, portRows, type PageBox, type PageLine } from './diagram';
 import { roundedPath, type Box, type Point } from './line';
 import { moduleLinks } from './module_links';
 
@@ -40,7 +40,7 @@ function boxSvg(b: PageBox, process: Process | null): string {
   if (b.phantom) return rect(`rx="7" fill="#f4f3ef" stroke="${muted}" stroke-dasharray="4 3"`) + texts(box, wrapped((item as Group).path.replace('/', '/ '), 15, 2).map((l) => l.replace('/ ', '/')), 10, `fill="${ink}"`, 2);
   const own = hexColour(item.color) && !/^#f{6}$/i.test(item.color);
   const about = 'groups' in item
-    ? [`${item.groups.length} ${item.groups.length === 1 ? 'group' : 'groups'}`, ...(item.module ? [item.enabled ? 'module' : 'module off'] : []), ...(item.linked ? ['linked'] : [])]
+    ? item.ports.length ? [] : [`${item.groups.length} ${item.groups.length === 1 ? 'group' : 'groups'}`, ...(item.module ? [item.enabled ? 'module' : 'module off'] : []), ...(item.linked ? ['linked'] : [])]
     : [item.places ? `${item.cells} cells` : `${item.width} × ${item.height}`];
   const links = process && !('groups' in item) ? moduleLinks(process, item.id) : { from: [], to: [] };
   const lines = wrapped(item.name, links.from.length ? 10 : 12, 3);
@@ -50,11 +50,14 @@ function boxSvg(b: PageBox, process: Process | null): string {
     rect(`rx="7" fill="#ffffff" stroke="${'groups' in item ? muted : '#b9b6ad'}" stroke-width="${'groups' in item ? 2 : 1}"`) +
     (own ? `<path d="M${number(box.x + 7)} ${number(box.y + 1.5)}h${number(box.width - 14)}" stroke="${item.color}" stroke-width="4"/>` : '') +
     texts(box, lines, 12, `font-weight="600" fill="${ink}"`, 7) +
+    ('groups' in item ? portTexts(item, box) : '') +
     texts(box, about, 11, `fill="${muted}"`, 9 + 15 * lines.length) +
     (links.from.length ? arrow(box.y + 4, fromModule) : '') +
     (links.to.length ? arrow(box.y + box.height - 14, toModule) : '')
   );
 }
+const portTexts = ({ ports }: Process, box: Box) =>
+  portRows(ports.length, box.height).map((y, i) => `<text x="${number(box.x + box.width / 2)}" y="${number(box.y + y + 4)}" font-size="11" text-anchor="middle" fill="${muted}">${escape(ports[i]!.name)}</text>`).join('');
 /** Arrows of 12 x 10: into a box from its right, and out of it. */
 export const fromModule = 'M11 5H2M5.5 1.5 2 5l3.5 3.5', toModule = 'M1 5h9M6.5 1.5 10 5 6.5 8.5';
 

@@ -3,6 +3,7 @@ import { draftComment, newSize } from '../edit/comments';
 import { connect, edit } from '../edit/operations';
 import { removeItems } from '../edit/menus';
 import { apart, freshName } from '../edit/places';
+import { palette } from '../edit/palette.svelte';
 import { tools } from '../edit/tool.svelte';
 import type { Operation } from '../protocol/commands';
 import type { Process } from '../protocol/messages';
@@ -10,7 +11,7 @@ import { actions } from '../stores/actions.svelte';
 import { frame } from '../stores/frame.svelte';
 import { model } from '../stores/model.svelte';
 import { selection } from '../stores/selection.svelte';
-import { boxSize, clickedAnchor, facingAnchor, inside, scale, toFile, type PageBox } from './diagram';
+import { boxSize, clickedAnchor, facingAnchor, groupAt, inside, scale, toFile, type PageBox } from './diagram';
 import type { Point } from './line';
 import type { StageApi } from './Stage.svelte';
 
@@ -45,6 +46,12 @@ export class PaneEdits {
     if (!id) return;
     selection.select(id);
     tools.renaming = id;
+  }
+
+  /** Opens the list of parts, of which one is added at this place. */
+  addPart(at?: Point): void {
+    const p = at ?? this.freePlace();
+    palette.open(toFile({ x: p.x - boxSize / 2, y: p.y - boxSize / 2 }));
   }
 
   /** Adds a comment, and lets its text be written. */
@@ -117,22 +124,25 @@ export class PaneEdits {
     const here = process?.id ?? null;
     if (!box) {
       if (tools.pending && tools.pending.page === here) tools.pending = { ...tools.pending, vertices: [...tools.pending.vertices, p] };
-    } else if (!process) actions.notify('info', 'Connections lead from group to group: open the page of a process.');
-    else if (!tools.pending) tools.pending = { source: box.id, anchor: box.phantom ? null : clickedAnchor(box.box, p), page: process.id, vertices: [] };
-    else this.connect(box, p);
+    } else {
+      const group = groupAt(box, p);
+      if (!group) actions.notify('info', 'Connections lead from group to group: open the page of the process.');
+      else if (!tools.pending) tools.pending = { source: group, box: box.id, anchor: group !== box.id || box.phantom ? null : clickedAnchor(box.box, p), page: here, vertices: [] };
+      else this.connect(box, group, p);
+    }
   }
 
-  /** Ends the pending line at a box. */
-  private connect(box: PageBox, p: Point): void {
-    const { source, page, anchor, vertices } = tools.pending!, kind = tools.current as 'excitatory' | 'inhibitory' | 'modulatory';
+  /** Ends the pending line at a box, which is that of a group or of a process with it behind a port. */
+  private connect(box: PageBox, target: string, p: Point): void {
+    const { source, box: begin, page, anchor, vertices } = tools.pending!, kind = tools.current as 'excitatory' | 'inhibitory' | 'modulatory';
     tools.used();
-    const number = box.phantom ? null : clickedAnchor(box.box, p);
+    const number = target !== box.id || box.phantom ? null : clickedAnchor(box.box, p);
     // Across processes, the vertices belong to the page on which they were clicked.
-    const from = page === this.pane.process?.id ? this.pane.boxes.get(source) : undefined;
-    const list = from?.phantom ? 'target_vertices' : !from || box.phantom ? 'source_vertices' : 'vertices';
+    const from = page === (this.pane.process?.id ?? null) ? this.pane.boxes.get(begin) : undefined;
+    const list = page === null ? 'vertices' : from?.phantom ? 'target_vertices' : !from || box.phantom ? 'source_vertices' : 'vertices';
     void connect({
       source,
-      target: box.id,
+      target,
       kind,
       // From another page a line comes from above.
       source_anchor: anchor ?? (from && !from.phantom ? facingAnchor(from.box, vertices[0] ?? box.box) : 1),

@@ -1,11 +1,12 @@
 import { describe, expect, it } from 'vitest';
-import { nearestAnchor, pageOf, pointsOf, segmentAt, toFile, type Page } from '../../src/panels/diagram';
+import { groupAt, nearestAnchor, pageOf, pointsOf, portRows, segmentAt, toFile, type Page } from '../../src/panels/diagram';
 import { fromModule, pageSvg, toModule, wrapped } from '../../src/panels/page_svg';
 import { moduleLinks } from '../../src/panels/module_links';
+import { connectable } from '../../src/edit/ends';
 import { aligned, apart, distributed, freshName } from '../../src/edit/places';
 import { holds, parseTuples, spanned, tupleText } from '../../src/edit/forms/cells';
 import { anchor, middleOfLongest, nearestPart, roundedPath, type Point } from '../../src/panels/line';
-import type { Connection, ConnectionLine, Group, SystemMessage } from '../../src/protocol/messages';
+import type { Connection, ConnectionLine, Group, Process, SystemMessage } from '../../src/protocol/messages';
 
 const group = (id: string, x: number | null, y = 0): Group => ({
   id,
@@ -44,7 +45,22 @@ const system = (groups: Group[][], connections: Connection[]): SystemMessage => 
   note: '',
   cycles_per_second: 25,
   seconds_per_cycle: 0.04,
-  processes: groups.map((g, i) => ({ id: `p${i}`, name: `P${i}`, color: '', note: '', icon: { x: 100 * i, y: 0, width: 50, height: 50 }, linked: false, enabled: true, module: null, groups: g, comments: [], phantoms: [] })),
+  processes: groups.map((g, i) => ({
+    id: `p${i}`,
+    name: `P${i}`,
+    color: '',
+    note: '',
+    icon: { x: 100 * i, y: 0, width: 50, height: 50 },
+    linked: false,
+    file: '',
+    within: '',
+    ports: [],
+    enabled: true,
+    module: null,
+    groups: g,
+    comments: [],
+    phantoms: [],
+  })),
   connections,
   comments: [],
 });
@@ -55,6 +71,23 @@ describe('a page of the diagram', () => {
     const page = await pageOf(s, s.processes[0]!);
     expect(page.boxes.map((b) => b.box)).toEqual([{ x: 20, y: 40, width: 100, height: 100 }, { x: 400, y: 40, width: 100, height: 100 }]);
     expect(pointsOf(page.lines[0]!, page.boxes[0]!, page.boxes[1]!)).toEqual([{ x: 120, y: 52.5 }, { x: 240, y: 180 }, { x: 400, y: 52.5 }]);
+  });
+  it('has boxes of parts with what is in their files, and lines to their ports', async () => {
+    const s = system([[group('a', 10, 20)], [group('u', 0, 0), group('v', 0, 0)], [group('w', 0, 0)]], [connection('c', 'a', 'u'), connection('d', 'v', 'a'), connection('e', 'w', 'a'), connection('f', 'u', 'w')]);
+    const [outer, part, inner] = s.processes as [Process, Process, Process];
+    part.ports = [{ name: 'in', group: 'u' }, { name: 'out', group: 'v' }, { name: 'more', group: 'w' }];
+    inner.within = part.id;
+    const page = await pageOf(s, null);
+    expect(page.boxes.map((b) => b.id)).toEqual([outer.id, part.id]);
+    expect(page.lines.map((l) => l.ports)).toEqual([['', 'in'], ['out', ''], ['more', '']]);
+    const box = page.boxes[1]!, ends = pointsOf(page.lines[0]!, page.boxes[0]!, box);
+    expect(ends[1]).toEqual({ x: box.box.x, y: box.box.y + portRows(3, 100)[0]! });
+    expect(groupAt(box, { x: 0, y: box.box.y + 95 })).toBe('w');
+    expect(groupAt(page.boxes[0]!, { x: 0, y: 0 })).toBe(null);
+    const inside = await pageOf(s, part);
+    expect(inside.boxes.filter((b) => !b.phantom).map((b) => b.id)).toEqual(['u', 'v', inner.id]);
+    expect(inside.lines.map((l) => [l.source, l.target])).toEqual([['a', 'u'], ['v', 'a'], [inner.id, 'a'], ['u', inner.id]]);
+    expect(connectable(s.processes)).toEqual([{ value: 'a', label: 'P/a' }, { value: 'u', label: 'P1: in' }, { value: 'v', label: 'P1: out' }, { value: 'w', label: 'P1: more' }]);
   });
   it('shows groups of other processes as phantoms above, which the line meets from below', async () => {
     const s = system([[group('a', 10, 20)], [group('z', 0, 0)]], [connection('c', 'z', 'a', line({ vertices: [[5, 5]] }))]);

@@ -2,7 +2,7 @@
 import { beforeEach, describe, expect, it, vi } from 'vitest';
 
 const sent: { name: string; [member: string]: unknown }[] = [];
-const answers: Record<string, unknown> = { copy: { text: '<clip/>' }, edit: { ids: [] } };
+const answers: Record<string, unknown> = { copy: { text: '<clip/>' }, edit: { ids: [], warnings: [] } };
 vi.mock('../../src/studio', () => {
   const command = (name: string, details: object) => {
     sent.push({ name, ...details });
@@ -40,7 +40,7 @@ beforeEach(() => {
     note: '',
     cycles_per_second: 25,
     seconds_per_cycle: 0.04,
-    processes: [{ id: 'p', name: 'P', color: '', note: '', icon: null, linked: false, enabled: true, module: null, groups: ['a', 'b', 'c'].map(group), comments: [], phantoms: [] }],
+    processes: [{ id: 'p', name: 'P', color: '', note: '', icon: null, linked: false, file: '', within: '', ports: [], enabled: true, module: null, groups: ['a', 'b', 'c'].map(group), comments: [], phantoms: [] }],
     connections: [line('ab', 'a', 'b'), line('bc', 'b', 'c')],
     comments: [],
   };
@@ -54,7 +54,7 @@ describe('edits', () => {
     expect(sent).toEqual([{ name: 'edit', merge: 'a,b.threshold', operations: ['a', 'b'].map((id) => ({ do: 'parameter', id, name: 'threshold', value: '0.5' })) }]);
   });
   it('gives the id of a new connection', async () => {
-    answers.edit = { ids: ['new'] };
+    answers.edit = { ids: ['new'], warnings: [] };
     expect(await connect({ source: 'a', target: 'b', kind: 'inhibitory', source_anchor: 4, target_anchor: 12, vertices: [] })).toBe('new');
   });
   it('finds problems by their item', () => {
@@ -66,7 +66,7 @@ describe('edits', () => {
 describe('comments', () => {
   const comment = { id: 'k', text: 'Comment', color: '', icon: { x: 0, y: 0, width: 90, height: 30 } };
   it('are made and written in one step, and grow with their text', async () => {
-    answers.edit = { ids: ['k'] };
+    answers.edit = { ids: ['k'], warnings: [] };
     draftComment('pane', 'p', [1, 2]);
     const draft = tools.draft!.comment;
     expect(tools.renaming).toBe(draft.id);
@@ -96,7 +96,7 @@ describe('the clipboard', () => {
     expect(withConnections(['p'])).toEqual(['p', 'ab', 'bc']);
   });
   it('cuts what was copied, and pastes into the page that is shown', async () => {
-    answers.edit = { ids: [['new', 'newer']] };
+    answers.edit = { ids: [['new', 'newer']], warnings: [] };
     await cut(['a']);
     await paste([10, 20]);
     expect(sent.map((s) => s.name)).toEqual(['copy', 'edit', 'edit']);
@@ -112,7 +112,7 @@ describe('the clipboard', () => {
 describe('the tool', () => {
   it('gives up the line first, then the tool', () => {
     tools.use('inhibitory');
-    tools.pending = { source: 'a', anchor: 0, page: 'p', vertices: [] };
+    tools.pending = { source: 'a', box: 'a', anchor: 0, page: 'p', vertices: [] };
     expect([tools.cancel(), tools.pending, tools.current]).toEqual([true, null, 'inhibitory']);
     expect([tools.cancel(), tools.current, tools.cancel()]).toEqual([true, 'select', false]);
   });
