@@ -842,6 +842,9 @@ class Others(Cli):
         self.assertIn(r"| $\mathit{modGain}$ | 0 (unless stated) |", gpr)
         self.assertIn(r"| BG/D2 | 6 x 1 | Leaky integrator | $\mathit{modGain}$ = -1 |", gpr)
         self.assertIn("| Cortex to D1 | Input/Cortex to BG/D1 | 6 excitatory | one to one | Fixed weight |", gpr)
+        tour = self.forage("describe", models.parent / "parts/tour.iqr", "--format", "markdown").stdout
+        self.assertIn(r"| $\tau$ | 0.05 | s | The constant of the system. |", tour)
+        self.assertIn("| Pair.To the other | source, target, weight, from 0: 0 1 1; 1 0 1 |", tour)
         foraging = self.forage("describe", SYSTEM, "--format", "markdown").stdout
         self.assertIn("## Cells that connections list (column, row)", foraging)
         self.assertRegex(foraging, r"\| \(\d[^|]* to \(\d")

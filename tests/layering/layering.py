@@ -20,7 +20,7 @@ ALLOWED = {
     'core/engine': {'core/base', 'core/connectivity', 'core/model', 'core/types'},
     'core/xml': {'core/base', 'core/formula', 'core/model', 'core/types'},
     'core/observe': {'core/base', 'core/engine', 'core/model'},
-    'core/run': {'core/base', 'core/types', 'core/model', 'core/connectivity', 'core/engine', 'core/observe'},
+    'core/run': {'core/base', 'core/types', 'core/formula', 'core/model', 'core/connectivity', 'core/engine', 'core/observe'},
     'core/plugin': {'core/base', 'core/types'},
     # Shipped types use only what a plugin can use, and do not use each other.
     'neurons': {'core/types'},
@@ -48,6 +48,7 @@ ALLOWED = {
     },
     'tools/api/describe': {
         'core/base',
+        'core/types',
         'core/equations',
         'core/connectivity',
         'core/model',

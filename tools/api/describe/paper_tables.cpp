@@ -152,7 +152,7 @@ Paper paper_of(const SystemDescription& d) {
     summary.rows.push_back({"Clock", d.cycles_per_second > 0
                                          ? fmt::format("{} cycles per second", d.cycles_per_second)
                                          : "as fast as possible"});
-    PaperTable constants{"Constants", {"Constant", "Value", "Unit", "Meaning"}, {0.25, 0.15, 0.1, 0.5}, {}};
+    PaperTable constants{"Constants", {"Constant", "Value", "Unit", "Meaning"}, {0.25, 0.15, 0.13, 0.47}, {}};
     for (const auto& c : d.constants) {
         PaperField name;  // "Process.name" of one of a process
         add_name(name, c.name, c.name.find('.') == std::string::npos);
@@ -201,7 +201,7 @@ Paper paper_of(const SystemDescription& d) {
         if (found == uses.end()) continue;
         TypeSection section{type_title(t), t.doc, typeset_equations(t.equations), {}};
         section.values = {
-            "", {"Parameter", "Value", "Unit", "Meaning"}, {0.25, 0.25, 0.1, 0.4}, found->second.rows()};
+            "", {"Parameter", "Value", "Unit", "Meaning"}, {0.22, 0.25, 0.13, 0.4}, found->second.rows()};
         out.types.push_back(std::move(section));
     }
     return out;

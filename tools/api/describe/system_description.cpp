@@ -29,9 +29,22 @@ std::string value_text(const std::string& text, ParameterKind kind) {
     return value ? to_text(*value) : text;
 }
 
-/// What a use of a type computes with. `type` and `declared` are null when there is no such type.
+/// The unit of a constant of the system or, with this name, of one of its processes.
+std::string unit_of_constant(const model::System& system, std::string_view name) {
+    const auto unit_in = [&](const std::vector<model::Constant>& all) {
+        const auto found = std::ranges::find(all, name, &model::Constant::name);
+        return found == all.end() ? std::string() : found->unit;
+    };
+    std::string out = unit_in(system.constants);
+    for (const auto& p : system.processes)
+        if (out.empty()) out = unit_in(p.constants);
+    return out;
+}
+
+/// What a use of a type computes with. `type` is null when there is no such type, and `declared` when the
+/// system does not declare it.
 template <class Type>
-TypeDescription describe(const model::TypeUse& use, const Type* type,
+TypeDescription describe(const model::TypeUse& use, const Type* type, const model::System& system,
                          const model::TypeDeclaration* declared = nullptr) {
     TypeDescription out{use.type, {}};
     if (type)
@@ -39,9 +52,9 @@ TypeDescription describe(const model::TypeUse& use, const Type* type,
             const auto* s = use.setting(p.name);
             const bool is_set =
                 std::ranges::any_of(use.settings, [&](const auto& own) { return own.name == p.name; });
-            out.values.push_back({p.name,
-                                  s ? value_text(s->in_force(p.kind), p.kind) : to_text(p.default_value),
-                                  p.unit, p.doc, is_set});
+            out.values.push_back(
+                {p.name, s ? value_text(s->in_force(p.kind), p.kind) : to_text(p.default_value),
+                 declared && p.unit.empty() ? unit_of_constant(system, p.name) : p.unit, p.doc, is_set});
         }
     const auto start = [&](const std::string& state, std::string value, bool is_set) {
         ValueDescription v{state + " at start", std::move(value), "", "", is_set};
@@ -145,10 +158,12 @@ std::string cells_of(const model::Pattern& pattern) {
                                 return out;
                             },
                             [](const model::Weights& w) {
-                                std::string out;  // a row per line, as "; "
+                                std::string out;
                                 for (const auto line : std::views::split(w.text, '\n')) {
                                     const auto row = model::trim(std::string_view(line.begin(), line.end()));
-                                    if (!row.empty()) out += (out.empty() ? "" : "; ") + std::string(row);
+                                    const char* const first =
+                                        w.is_list ? "source, target, weight, from 0: " : "a row per target: ";
+                                    if (!row.empty()) out += (out.empty() ? first : "; ") + std::string(row);
                                 }
                                 return out;
                             }},
@@ -203,16 +218,16 @@ using Paths = std::unordered_map<std::string_view, std::string>;
 
 ProcessDescription describe(const model::Process& process, const model::System& system,
                             const Registry& registry, const Paths& paths) {
-    ProcessDescription out{.id = process.id,
-                           .name = std::string(model::trim(process.name)),
-                           .file = process.path,
-                           .module = process.module
-                                         ? describe(*process.module, registry.module(process.module->type))
-                                         : TypeDescription{},
-                           .module_enabled = process.module_enabled,
-                           .ports = {},
-                           .groups = {},
-                           .notes = process.note.value_or("")};
+    ProcessDescription out{
+        .id = process.id,
+        .name = std::string(model::trim(process.name)),
+        .file = process.path,
+        .module = process.module ? describe(*process.module, registry.module(process.module->type), system)
+                                 : TypeDescription{},
+        .module_enabled = process.module_enabled,
+        .ports = {},
+        .groups = {},
+        .notes = process.note.value_or("")};
     if (process.module)
         for (const auto* references : {&process.module->inputs, &process.module->outputs})
             for (const auto& r : *references)
@@ -226,7 +241,7 @@ ProcessDescription describe(const model::Process& process, const model::System& 
                               .width = shape.width,
                               .height = shape.height,
                               .cells = shape.cells,
-                              .neuron = describe(g.neuron, registry.neuron(g.neuron.type),
+                              .neuron = describe(g.neuron, registry.neuron(g.neuron.type), system,
                                                  find_declaration(system.neuron_types, g.neuron.type)),
                               .notes = g.note.value_or("")});
     }
@@ -350,7 +365,7 @@ SystemDescription describe(const model::System& system, const Registry& registry
              .attenuation = describe(c.attenuation),
              .delay = describe(c.delay),
              .cells = cells_of(c.pattern),
-             .synapse = describe(synapse, registry.synapse(synapse.type),
+             .synapse = describe(synapse, registry.synapse(synapse.type), system,
                                  find_declaration(system.synapse_types, synapse.type)),
              .notes = c.note.value_or("")});
     }
