@@ -694,7 +694,11 @@ class Documentation(Experiment):
     def test_the_attributes_in_tables(self):
         cells = [re.findall(r"`(.+?)`", row.split("|")[1]) for row in self.page.splitlines() if row.startswith("| `") and '="' in row.split("|")[1]]
         texts = [
-            t.replace("CONDITION", "cycle 3").replace("QUANTITY", "max(Bug/Light)").replace("FORMULA", "2 + 3").replace("P/A", "Bug/Light").replace("FILE", "p.txt")
+            t.replace("CONDITION", "cycle 3")
+            .replace("QUANTITY", "max(Bug/Light)")
+            .replace("FORMULA", "2 + 3")
+            .replace("P/A", "Bug/Light")
+            .replace("FILE", "p.txt")
             for row in cells
             for t in row
             if not t.startswith("<")
