@@ -68,6 +68,13 @@ void refuse_as_part(const System& system, const Process& p) {
                 "a part has all groups of its module: move the group into the process, or connect a "
                 "group of the process with it");
     });
+    for (const auto& other : system.processes)
+        for (const auto& use : other.placeholder)
+            for (const auto& port : use.ports)
+                if (groups.find(port.group).process == &p)
+                    throw Refused(fmt::format("process '{}' gives the group '{}' of '{}' to its part",
+                                              trim(other.name), port.group, name),
+                                  "its id would change: move the group into another process");
 }
 
 /// The opposite of name_use(): takes the name of the process from names, and `prefix` from the ids of a file,

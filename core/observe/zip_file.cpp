@@ -66,13 +66,13 @@ ZipFile::ZipFile(std::string path)
     for (zip_int64_t i = 0; i < zip_get_num_entries(archive_.get(), 0); ++i) {
         zip_stat_t entry;
         if (zip_stat_index(archive_.get(), static_cast<zip_uint64_t>(i), 0, &entry) != 0) continue;
-        constexpr zip_uint64_t needed = ZIP_STAT_NAME | ZIP_STAT_SIZE | ZIP_STAT_INDEX;
+        constexpr zip_uint64_t needed = ZIP_STAT_NAME | ZIP_STAT_SIZE | ZIP_STAT_INDEX | ZIP_STAT_CRC;
         if ((entry.valid & needed) != needed) continue;
         if (entry.size > left)
             throw std::runtime_error(fmt::format(
                 "its files claim to be more than {} times as large when they are unpacked", max_ratio));
         left -= entry.size;
-        entries_.push_back({entry.name, entry.size, entry.index});
+        entries_.push_back({entry.name, entry.size, entry.index, entry.crc});
     }
 }
 

@@ -26,6 +26,8 @@ class ZipFile {
     struct Entry {
         std::string name;
         std::uint64_t bytes = 0, index = 0;
+        std::uint32_t crc = 0;
+        bool operator==(const Entry&) const = default;
     };
 
     /// Throws std::runtime_error when it is no archive, and when its files claim more than 64 MiB and more

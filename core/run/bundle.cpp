@@ -63,15 +63,6 @@ fs::path model_folder(const fs::path& file) {
     return {};
 }
 
-/// The regular files below a folder, in alphabetical order.
-std::vector<fs::path> files_below(const fs::path& folder) {
-    std::vector<fs::path> out;
-    for (const auto& entry : fs::recursive_directory_iterator(folder))
-        if (entry.is_regular_file() && !entry.is_symlink()) out.push_back(entry.path());
-    std::ranges::sort(out);
-    return out;
-}
-
 /// What the files are called in the bundle.
 using Entries = std::vector<observe::ZipEntry>;
 
@@ -199,7 +190,8 @@ bool stays_inside(const fs::path& name) {
 }  // namespace
 
 void write_bundle(const std::string& path, const std::vector<std::string>& command, const InputFiles& inputs,
-                  const FileTexts& texts, const std::string& results) {
+                  const FileTexts& texts, const std::string& directory,
+                  const std::vector<std::string>& results) {
     BundleRecord record{.forage = FORAGE_VERSION,
                         .platform = platform(),
                         .host = host(),
@@ -236,9 +228,8 @@ void write_bundle(const std::string& path, const std::vector<std::string>& comma
             folders.insert(inside(model.parent_path()));
     }
     record.model_folders.assign(folders.begin(), folders.end());
-    for (const auto& file : files_below(results)) {
-        const std::string name = file.lexically_relative(results).string();
-        files.push_back({"results/" + name, file.string()});
+    for (const auto& name : results) {
+        files.push_back({"results/" + name, directory + "/" + name});
         record.results[name] = digest_of(files.back());
     }
     const std::string metadata = crate(record, files);

@@ -21,11 +21,12 @@ struct BundleRecord {
 };
 
 /// Writes a bundle to `path`, with metadata for archives of research (RO-Crate 1.1). `inputs` are the files
-/// that were read and their digests then; `results` is the directory of the results. The sources of plugins
+/// that were read and their digests then; `results` are names of files in `directory`. The sources of plugins
 /// that lie beside them or above their folder come along. `texts` are the contents that files had when the
 /// run began. Throws std::runtime_error, also when another input has changed since.
 void write_bundle(const std::string& path, const std::vector<std::string>& command, const InputFiles& inputs,
-                  const FileTexts& texts, const std::string& results);
+                  const FileTexts& texts, const std::string& directory,
+                  const std::vector<std::string>& results);
 
 /// Unpacks a bundle into the folders "inputs" and "expected" of `folder`, and returns what it holds. Throws
 /// std::runtime_error when it is no bundle, when a name leads out of the folder, and when a file is not the

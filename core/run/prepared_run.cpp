@@ -113,7 +113,8 @@ RunOutcome run_to_end(PreparedRun& p, const RunCallbacks& callbacks) {
         write_results(p, out);
         for (const auto& text : out.files.problems()) problem(text);
         if (!p.spec.bundle.empty() && out.stopped.empty() && out.problems.empty()) try {
-                write_bundle(p.spec.bundle, p.spec.command, p.inputs, p.module_texts, p.spec.directory);
+                write_bundle(p.spec.bundle, p.spec.command, p.inputs, p.module_texts, p.spec.directory,
+                             out.files.names());
             } catch (const std::exception& e) {
                 problem(e.what());
             }

@@ -4,6 +4,7 @@
 """
 
 import hashlib
+import io
 import json
 import random
 import shutil
@@ -93,6 +94,21 @@ class Bundle(Cli):
         self.assertIn("run.json: differs in /cycles", done.stdout)
         self.assertIn("error: 2 of 5 files of results differ", done.stderr)
         self.assertIn('Eigen "3.0.0" then', done.stderr)
+
+    def test_arrays_are_compared_without_the_headers_of_their_archive(self):
+        self.make("--format", "npz")
+        for number, status in ((0, 0), (1, 1)):
+            with zipfile.ZipFile(self.bundle) as archive:
+                name = next(n for n in archive.namelist() if n.endswith(".npz"))
+                arrays = io.BytesIO(archive.read(name))
+            other = io.BytesIO()
+            with zipfile.ZipFile(arrays) as before, zipfile.ZipFile(other, "w", zipfile.ZIP_DEFLATED) as after:
+                for array in before.namelist():
+                    content = bytearray(before.read(array))
+                    content[-1] ^= number
+                    after.writestr(array, bytes(content))
+            changed(self.bundle, self.here / "other.zip", **{name: other.getvalue()})
+            self.forage("rerun", "other.zip", status=status)
 
     def test_foreign_bundles_do_no_harm(self):
         self.make()

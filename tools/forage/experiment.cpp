@@ -187,7 +187,7 @@ int experiment(const ExperimentOptions& o) {
     if (!results) return print_stopped();
     const int status = print_results(o, *wanted, *results);
     if (status == fine && !o.bundle.empty())
-        write_bundle(o.bundle, command_of(o), inputs, {}, wanted->directory);
+        write_bundle(o.bundle, command_of(o), inputs, {}, wanted->directory, result_files(*wanted));
     if (status != fine || o.system.empty()) return status;
     const int met = print_findings(o.system, findings(*wanted, *results, diagnostics));
     print("  results in {}\n", std::filesystem::path(wanted->results_file()).parent_path().string());

@@ -335,9 +335,8 @@ void add_rerun(CLI::App& app, RerunOptions& o) {
         "rerun", "Repeat a run or an experiment, and compare the results with those of before");
     rerun.footer(
         "Of a bundle, inputs/ has the files, expected/ the results of before, results/ those of now.\n"
+        "'forage run --bundle paper.zip' writes a bundle.\n"
         "Example:\n"
-        "  forage run systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --bundle "
-        "paper.zip\n"
         "  forage rerun paper.zip");
     rerun
         .add_option("FILE", o.path,

@@ -228,6 +228,25 @@ InputFiles input_files(const std::string& file, const PreparedExperiment& e) {
     return out;
 }
 
+std::vector<std::string> result_files(const PreparedExperiment& e) {
+    namespace fs = std::filesystem;
+    std::vector<std::string> out;
+    for (const auto& file : fs::directory_iterator(e.directory)) {
+        const std::string name = file.path().filename().string();
+        if (file.is_regular_file() &&
+            (name.starts_with("results.") || name == "summary.csv" || name == "trials.csv"))
+            out.push_back(name);
+    }
+    for (std::size_t i = 0; i < e.runs.size(); ++i) {
+        const std::string run = "runs/" + e.runs.name(i);
+        std::error_code none;
+        for (const auto& file : fs::directory_iterator(e.directory + "/" + run, none))
+            if (file.is_regular_file()) out.push_back(run + "/" + file.path().filename().string());
+    }
+    std::ranges::sort(out);
+    return out;
+}
+
 std::vector<std::size_t> open_runs(const PartResults& found) {
     std::vector<std::size_t> out;
     for (std::size_t i = 0; i < found.results.size(); ++i)

@@ -99,6 +99,9 @@ std::optional<std::vector<RunResult>> merge(PreparedExperiment& experiment, Diag
 /// The digests of all files that the experiment in `file` has read, for a bundle.
 InputFiles input_files(const std::string& file, const PreparedExperiment& experiment);
 
+/// The names of the files that the runs and tables have left in the directory, without those of parts.
+std::vector<std::string> result_files(const PreparedExperiment& experiment);
+
 /// What became of the requirements of the file's exercise, in order; `results` are those of all runs.
 std::vector<Finding> findings(const PreparedExperiment& experiment, std::span<const RunResult> results,
                               Diagnostics& diagnostics);

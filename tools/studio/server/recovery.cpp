@@ -97,7 +97,7 @@ void RecoveryFiles::forget_running() const {
 }
 
 std::string digest_of_files(const RunInput& input, const Sources& sources) {
-    std::string out = input.text.empty() ? file_digest(input.system) : digest(input.text);
+    std::string out = input.text.empty() ? file_digest(input.system) : sha256(input.text);
     for (const auto& [path, content] : system_files(*sources.system))
         if (fs::absolute(path) != fs::absolute(input.system)) out += " " + content;
     for (const auto& other : sources.more)
