@@ -691,10 +691,10 @@ class Edit(Cli):
         self.assertEqual(self.forage("edit", tour, '{"do": "use_part", "file": "parts/half_centre.iqrProcess", "id": "third"}').stdout, "third\n")
         self.assertIn('<Process id="third" name="Half-centre"', (self.here / tour).read_text())
         kept = made.read_text()
-        self.assertIn("exists", self.forage("edit", tour, operation.replace("pair", "in"), status=2).stderr)
         refused = self.forage("edit", tour, operation.replace("pair", "in").replace("mine", "other"), status=2).stderr
         self.assertIn("process 'Memory' gives the group 'done' of 'In' to its part", refused)
         self.forage("edit", tour, '{"do": "remove", "id": "memory"}')
+        self.assertIn("exists", self.forage("edit", tour, operation.replace("pair", "in"), status=2).stderr)
         failing = f'[{operation.replace("pair", "in").replace("mine", "other")}, {{"do": "grow"}}]'
         self.assertIn("there is no operation 'grow'", self.forage("edit", tour, failing, status=2).stderr)
         self.assertEqual(made.read_text(), kept)

@@ -262,6 +262,9 @@ def test_a_process_becomes_a_part_in_python(tmp_path):
     groups = [g.id for g in system.groups]
     assert system.edit([{"do": "dissolve", "id": "race"}, {"do": "make_part", "id": "race", "file": str(tmp_path / "race.iqrProcess")}]) == [None, None]
     assert [g.id for g in system.groups] == groups
+    with pytest.raises(forage.InputError, match="gives the group 'done'"):
+        system.edit({"do": "make_part", "id": "in", "file": str(tmp_path / "in.iqrProcess")})
+    system.edit({"do": "remove", "id": "memory"})
     with pytest.warns(forage.InputWarning, match="runs draw other random numbers"):
         assert "in.drive" in system.edit({"do": "make_part", "id": "in", "file": str(tmp_path / "in.iqrProcess")})[0]
     with pytest.raises(forage.InputError, match="exists"):
