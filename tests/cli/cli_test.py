@@ -693,7 +693,7 @@ class Edit(Cli):
         kept = made.read_text()
         refused = self.forage("edit", tour, operation.replace("pair", "in").replace("mine", "other"), status=2).stderr
         self.assertIn("process 'Memory' gives the group 'done' of 'In' to its part", refused)
-        self.forage("edit", tour, '{"do": "remove", "id": "memory"}')
+        self.forage("edit", tour, '{"do": "remove", "ids": ["memory"]}')
         self.assertIn("exists", self.forage("edit", tour, operation.replace("pair", "in"), status=2).stderr)
         failing = f'[{operation.replace("pair", "in").replace("mine", "other")}, {{"do": "grow"}}]'
         self.assertIn("there is no operation 'grow'", self.forage("edit", tour, failing, status=2).stderr)

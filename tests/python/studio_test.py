@@ -264,7 +264,7 @@ def test_a_process_becomes_a_part_in_python(tmp_path):
     assert [g.id for g in system.groups] == groups
     with pytest.raises(forage.InputError, match="gives the group 'done'"):
         system.edit({"do": "make_part", "id": "in", "file": str(tmp_path / "in.iqrProcess")})
-    system.edit({"do": "remove", "id": "memory"})
+    system.edit({"do": "remove", "ids": ["memory"]})
     with pytest.warns(forage.InputWarning, match="runs draw other random numbers"):
         assert "in.drive" in system.edit({"do": "make_part", "id": "in", "file": str(tmp_path / "in.iqrProcess")})[0]
     with pytest.raises(forage.InputError, match="exists"):
