@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
+#include <sstream>
 #include <string_view>
 #include <unordered_map>
 #include <variant>
@@ -159,8 +159,9 @@ std::string cells_of(const model::Pattern& pattern) {
                             },
                             [](const model::Weights& w) {
                                 std::string out;
-                                for (const auto line : std::views::split(w.text, '\n')) {
-                                    const auto row = model::trim(std::string_view(line.begin(), line.end()));
+                                std::istringstream in(w.text);
+                                for (std::string line; std::getline(in, line);) {
+                                    const auto row = model::trim(line);
                                     const char* const first =
                                         w.is_list ? "source, target, weight, from 0: " : "a row per target: ";
                                     if (!row.empty()) out += (out.empty() ? first : "; ") + std::string(row);

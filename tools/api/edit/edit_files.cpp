@@ -8,6 +8,7 @@
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
 #include "core/run/input_error.h"
+#include "tools/api/open/sources.h"
 
 namespace forage::editing {
 

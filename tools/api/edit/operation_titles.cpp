@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/model/lookup.h"
+#include "core/model/operations.h"
 #include "tools/api/edit/operations.h"
 
 namespace forage::editing {

@@ -8,6 +8,7 @@
 
 #include "core/model/build.h"
 #include "core/model/edit.h"
+#include "core/model/names.h"
 #include "core/model/parts.h"
 #include "core/run/input_error.h"
 #include "core/xml/reader.h"
