@@ -207,9 +207,9 @@ void write_bundle(const std::string& path, const std::vector<std::string>& comma
     record.start = inside(fs::current_path());
     Entries files;
     std::set<std::string> folders;
-    const auto take = [&](const fs::path& file, const std::string& text = {}) {
+    const auto take = [&](const fs::path& file, const std::string* text = nullptr) {
         if (record.inputs.contains(inside(file))) return;
-        files.push_back({"inputs/" + inside(file), text.empty() ? file.string() : "", text});
+        files.push_back({"inputs/" + inside(file), text ? "" : file.string(), text ? *text : ""});
         record.inputs[inside(file)] = digest_of(files.back());
     };
     for (const auto& [name, sum] : inputs) {
@@ -228,7 +228,7 @@ void write_bundle(const std::string& path, const std::vector<std::string>& comma
             if (const auto source = source_of(file); !source.empty()) take(source);
             continue;
         }
-        take(file, kept == texts.end() ? "" : kept->second);
+        take(file, kept == texts.end() ? nullptr : &kept->second);
         if (const auto model = model_folder(file); !model.empty())
             folders.insert(inside(model.parent_path()));
     }
