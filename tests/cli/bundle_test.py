@@ -181,6 +181,11 @@ class Bundle(Cli):
         self.forage(*words)
         self.assertIn("all as before", self.forage("rerun", self.bundle).stdout)
 
+    def test_a_bundle_that_cannot_be_written_is_refused_before_the_run(self):
+        run = ("run", PROJECT / "systems/reactive_foraging.iqr", "--cycles", "5", "-q", "--bundle")
+        self.assertIn("needs a directory of results", self.forage(*run, "a.zip", "-o", "", status=2).stderr)
+        self.assertIn("it is not a file", self.forage(*run, ".", status=2).stderr)
+
     def test_what_is_no_bundle(self):
         (self.here / "text.zip").write_text("no archive")
         self.assertIn("not a bundle", self.forage("rerun", "text.zip", status=2).stderr)

@@ -64,6 +64,9 @@ std::optional<PreparedRun> prepare(const Sources& sources, const RunSpec& given,
     if (spec.checkpoint_every && spec.directory.empty())
         diagnostics.error({}, "--checkpoint-every needs a directory to write to",
                           "leave out -o '' or name one");
+    if (!spec.bundle.empty() && spec.directory.empty())
+        diagnostics.error({}, "--bundle needs a directory of results", "leave out -o '' or name one");
+    if (!spec.bundle.empty()) check_output(spec.bundle, "paper.zip", diagnostics);
     if (spec.checkpoint_every || spec.digest)
         check_checkpoints(run->layout(), spec.checkpoint_every ? "--checkpoint-every" : "--hash",
                           diagnostics);
