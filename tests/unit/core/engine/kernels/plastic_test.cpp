@@ -181,7 +181,7 @@ TEST_CASE("An apical synapse passes pre * 1 / (1 - mod) of its target, attenuate
     }
 }
 
-TEST_CASE("Skipping the synapses of silent sources does not change a result", "[long][serial]") {
+TEST_CASE("Skipping the synapses of silent sources does not change a result", "[long][without-tsan]") {
     Registry types = registry();
     types.add(synapse_type<Mute>());
     auto system = window("0.2");

@@ -56,7 +56,7 @@ TEST_CASE("The exception of the lowest item that fails is thrown, and the pool c
     pool.run(100, fine);
 }
 
-TEST_CASE("The child of a fork has threads of its own, and may leave the pool unused") {
+TEST_CASE("The child of a fork has threads of its own, and may leave the pool unused", "[without-tsan]") {
     ThreadPool pool(3), other(2);
     std::array<std::atomic<int>, 100> done{};
     auto work = [&](int item, int) { ++done[static_cast<std::size_t>(item)]; };
