@@ -4,10 +4,12 @@
 command -v node >/dev/null || { echo "SKIPPED: there is no Node"; exit 77; }
 [ -d "$2/node_modules/vitest" ] || { echo "SKIPPED: the page was not built, see tools/studio/web"; exit 77; }
 export FORAGE_TUTORIAL="$4/docs/tutorial"
-rm -rf "$2/tests" && cp -r "$4/tools/studio/web/tests" "$2" && cd "$2" || exit 1
-kind=$1 forage=$3 sources=$4
+kind=$1 page=$2 forage=$3 sources=$4
 shift 4
+# Tests that run at the same time copy different folders.
+case $kind in check) tests=tests ;; browser) tests=tests/browser ;; esac
+rm -rf "$page/${tests##*/}" && cp -r "$sources/tools/studio/web/$tests" "$page" && cd "$page" || exit 1
 case $kind in
     check) npm run --silent check && npm run --silent test ;;
-    browser) node tests/browser/run.mjs "$forage" "$sources" "$@" ;;
+    browser) node browser/run.mjs "$forage" "$sources" "$@" ;;
 esac
