@@ -114,9 +114,9 @@ void RobotSensors::sense_due(double now, const BodyPoses& poses, MovingVisuals& 
         render(camera_clock_->sample(now), poses, visuals);
 }
 
-void RobotSensors::make_camera(const std::shared_ptr<const Scene>& scene) {
-    if (!camera_sensor_ || camera_) return;
-    camera_.emplace(*camera_sensor_, link_pose_, scene);
+void RobotSensors::make_camera(const Camera& like) {
+    if (camera_) return;
+    camera_.emplace(like);
     const auto values =
         3 * static_cast<std::size_t>(camera_->width()) * static_cast<std::size_t>(camera_->height());
     picture_.resize(values);

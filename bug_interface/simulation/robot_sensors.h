@@ -60,9 +60,8 @@ class RobotSensors {
     /// with a body. A robot sees its own gripper but not its own central disc. `step` is the duration of a
     /// physics step, s.
     void make_scanners(std::span<const Solid> fixed, std::span<const MovingSolid> moving, double step);
-    /// Makes the camera. Has no effect when the robot has no camera sensor, or when the camera already
-    /// exists.
-    void make_camera(const std::shared_ptr<const Scene>& scene);
+    /// Makes the camera, a copy of one that belongs to the same robot. Has no effect when there is one.
+    void make_camera(const Camera& like);
 
     /// The pose of the body's link in the robot. The poses of the sensors are relative to it.
     const Pose& link_pose() const { return link_pose_; }

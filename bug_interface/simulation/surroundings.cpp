@@ -19,4 +19,10 @@ const std::vector<Patch>& Surroundings::patches() {
     return *patches_;
 }
 
+const Camera& Surroundings::camera(std::size_t robot, const CameraSensor& sensor, const Pose& link_pose) {
+    const auto seen = scene();
+    const std::lock_guard lock(making_);
+    return cameras_.try_emplace(robot, sensor, link_pose, seen).first->second;
+}
+
 }  // namespace forage::bug

@@ -1,11 +1,13 @@
 // What never moves in a world.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
 
+#include "bug_interface/sensing/camera.h"
 #include "bug_interface/sensing/scene.h"
 #include "bug_interface/simulation/patches.h"
 #include "bug_interface/world/description.h"
@@ -21,12 +23,16 @@ class Surroundings {
     explicit Surroundings(const WorldDescription& world);
     std::shared_ptr<const Scene> scene();
     const std::vector<Patch>& patches();
+    /// A new camera of a robot, to copy: its tables take most of the time that a further run of a world
+    /// needs.
+    const Camera& camera(std::size_t robot, const CameraSensor& sensor, const Pose& link_pose);
 
   private:
     WorldDescription still_;
     std::mutex making_;
     std::shared_ptr<const Scene> scene_;
     std::optional<std::vector<Patch>> patches_;
+    std::map<std::size_t, Camera> cameras_;  ///< by robot
 };
 
 }  // namespace forage::bug

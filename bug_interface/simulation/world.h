@@ -59,6 +59,7 @@ class World final : public Environment {
     std::uint64_t cycle() const { return cycle_; }       ///< number of finished cycles
     std::uint64_t substeps() const { return substep_; }  ///< number of finished physics steps
 
+    std::unique_ptr<Environment> restarted(std::uint64_t seed) const override;
     /// Simulates one cycle: the motion, then the snapshots of all robots. The first snapshots are taken by
     /// make().
     void step() override;
@@ -175,7 +176,7 @@ class World final : public Environment {
     const Physics& physics() const { return *physics_; }
 
   private:
-    World(const WorldDescription& description, const WorldOptions& options);
+    World(std::shared_ptr<const WorldDescription> description, const WorldOptions& options);
     // ---- construction ----
     bool build(Diagnostics& diagnostics);
     void add_robot(const Model& model, Diagnostics& diagnostics);
@@ -203,7 +204,8 @@ class World final : public Environment {
     void make_camera(std::size_t bug);
     MovingVisuals& visuals();
 
-    WorldDescription description_;
+    std::shared_ptr<const WorldDescription> shared_description_;
+    const WorldDescription& description_;
     WorldOptions options_;
     double substeps_per_cycle_;  ///< a mean; need not be an integer
     std::uint64_t cycle_ = 0, substep_ = 0;

@@ -41,14 +41,15 @@ double highest_point(const std::vector<Robot>& robots) {
 
 }  // namespace
 
-World::World(const WorldDescription& description, const WorldOptions& options)
-    : description_(description),
+World::World(std::shared_ptr<const WorldDescription> description, const WorldOptions& options)
+    : shared_description_(std::move(description)),
+      description_(*shared_description_),
       options_(options),
       surroundings_(options.surroundings ? options.surroundings
-                                         : std::make_shared<Surroundings>(description)) {
-    const double factor = options.real_time_factor.value_or(description.step * description.update_rate);
+                                         : std::make_shared<Surroundings>(description_)) {
+    const double factor = options.real_time_factor.value_or(description_.step * description_.update_rate);
     constexpr double max_substeps = 1e18;  // of a system that model::validate() refuses
-    substeps_per_cycle_ = std::min(factor / (options.cycles_per_second * description.step), max_substeps);
+    substeps_per_cycle_ = std::min(factor / (options.cycles_per_second * description_.step), max_substeps);
 }
 
 std::unique_ptr<World> World::make(const WorldDescription& description, const WorldOptions& options,
@@ -63,19 +64,31 @@ std::unique_ptr<World> World::make(const WorldDescription& description, const Wo
             "give the system's cyclesPerSecond, or choose one on the command line");
         return nullptr;
     }
-    std::unique_ptr<World> world(new World(description, options));
-    world->build(diagnostics);
+    check_models(description, diagnostics);
     if (diagnostics.errors() > errors_before) return nullptr;
+    auto own = std::make_shared<WorldDescription>(description);
+    if (options.game && !own->game) own->game.emplace();
+    std::unique_ptr<World> world(new World(std::move(own), options));
+    if (!world->build(diagnostics)) return nullptr;
     world->scan();
     world->remember();
     return world;
 }
 
+std::unique_ptr<Environment> World::restarted(std::uint64_t seed) const {
+    WorldOptions options = options_;
+    options.seed = seed, options.surroundings = surroundings_;
+    std::unique_ptr<World> world(new World(shared_description_, options));
+    Diagnostics reported;  // by make()
+    world->build(reported);
+    world->scan();
+    world->remember();
+    return world;
+}
+
+/// Returns false when `diagnostics` got an error.
 bool World::build(Diagnostics& diagnostics) {
     const int errors_before = diagnostics.errors();
-    check_models(description_, diagnostics);
-    if (diagnostics.errors() > errors_before) return false;
-    if (options_.game && !description_.game) description_.game.emplace();
     plan_ = find_reset(description_, diagnostics);
     targets_ = targets_of(description_);
     for (const Model& model : description_.models)

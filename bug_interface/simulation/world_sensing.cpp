@@ -43,7 +43,9 @@ MovingVisuals& World::visuals() {
 }
 
 void World::make_camera(std::size_t bug) {
-    if (robots_[bug].sensors.camera_sensor()) robots_[bug].sensors.make_camera(scene());
+    RobotSensors& sensors = robots_[bug].sensors;
+    if (const auto& sensor = sensors.camera_sensor())
+        sensors.make_camera(surroundings_->camera(bug, *sensor, sensors.link_pose()));
 }
 
 std::span<const std::uint8_t> World::image(std::size_t bug) {

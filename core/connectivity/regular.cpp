@@ -53,9 +53,14 @@ void turn_round(std::vector<Offset>& offsets) {
 
 }  // namespace
 
+bool is_drawn(const model::Connection& c) {
+    return random(c.attenuation) || random(c.delay) || c.arborization.probability < 1 ||
+           std::holds_alternative<model::RandomArbor>(c.arborization.shape);
+}
+
 std::optional<Regular> regular(const model::Connection& c, const model::Topology& source_topology,
                                const model::Topology& target_topology) {
-    if (random(c.attenuation) || random(c.delay) || c.arborization.probability < 1) return {};
+    if (is_drawn(c)) return {};
     for (const auto* topology : {&source_topology, &target_topology}) {
         const GroupShape size = model::shape(*topology);
         if (static_cast<double>(size.width) * size.height > static_cast<double>(model::max_extent)) return {};

@@ -28,6 +28,9 @@ struct Regular {
     std::size_t synapses = 0;
 };
 
+/// Whether random numbers decide the synapses of a connection, their attenuations or their delays.
+bool is_drawn(const model::Connection& connection);
+
 /// Recognises rectangular windows between groups of the same size, and a PatternForeach that pairs each cell
 /// once. Empty for other connections, for those that are random or have no synapses, for windows that wrap
 /// around, and if there is something to report about the pattern.

@@ -119,7 +119,7 @@ Cycle::Found Cycle::update_part(int group, Part part, int thread) {
     std::array<double*, max_inputs> inputs;
     std::array<bool, max_inputs> silent;
     for (std::size_t k = 0; k < max_inputs; ++k) inputs[k] = g.inputs[k][g.row], silent[k] = !p.fed[k];
-    NeuronColumns columns(count, p.stride, cycle, inputs, g.states, p.random, workers_[thread].scratch.get(),
+    NeuronColumns columns(count, p.stride, cycle, inputs, g.states, g.random, workers_[thread].scratch.get(),
                           silent, first);
     try {
         g.neuron->update(columns);
@@ -202,7 +202,7 @@ void Cycle::start_modules() {
         try {
             show_inputs(i);
             ModuleFrame frame(0, m.in, m.out, &m.written, &plan_.modules[i].read);
-            m.module->start(plan_.modules[i].ports, frame);
+            m.module->start(m.ports, frame);
         } catch (...) {
             const auto& about = plan_.layout.modules[i];
             std::throw_with_nested(

@@ -154,7 +154,7 @@ void check_changes(const Plan& plan, const State& state, std::span<const Assignm
             a.parameter->set(copy.parameters(), a.value);
             Diagnostics found;
             try {
-                copy.check(plan.modules[i].ports, found);
+                copy.check(state.modules[i].ports, found);
             } catch (const FileError& e) {
                 report(e, diagnostics);
             }

@@ -22,7 +22,7 @@ struct Simulation::Parts {
           cycle(*plan, *state, options.threads),
           executor(make_executor(*plan, cycle, options.threads, options.parallel_threshold_ns,
                                  options.min_task_ns)) {}
-    std::unique_ptr<const Plan> plan;
+    std::shared_ptr<const Plan> plan;
     std::unique_ptr<State> state;
     Cycle cycle;
     std::unique_ptr<Executor> executor;  ///< null when one thread does all
@@ -74,7 +74,19 @@ std::optional<Simulation> Simulation::build(const model::System& system, const R
 
 std::optional<Simulation> Simulation::build(const model::System& system, Layout layout, const Demand& demand,
                                             const Options& options, Diagnostics& diagnostics) {
-    auto compiled = compile(system, std::move(layout), demand, options, diagnostics);
+    return build(system, std::make_shared<const Layout>(std::move(layout)), demand, options, diagnostics, {});
+}
+
+std::optional<Simulation> Simulation::build(const model::System& system, std::shared_ptr<const Layout> layout,
+                                            const Demand& demand, const Options& options,
+                                            Diagnostics& diagnostics, std::shared_ptr<const Plan> plan) {
+    Compiled compiled;
+    if (plan && !plan->seed && plan->demand.covers(demand)) {
+        compiled.state = std::make_unique<State>(*plan, options);
+        compiled.plan = std::move(plan);
+    } else {
+        compiled = compile(system, std::move(layout), demand, options, diagnostics);
+    }
     if (!compiled.plan) return std::nullopt;
     auto parts = std::make_unique<Parts>(std::move(compiled), options);
     if (!model::constant_names(system).empty()) parts->constants.emplace(system, parts->plan->layout);
@@ -169,6 +181,7 @@ void Simulation::adopt(const Simulation& old, const Unchanged& unchanged) {
 }
 
 const Layout& Simulation::layout() const { return parts_->plan->layout; }
+std::shared_ptr<const Plan> Simulation::plan() const { return parts_->plan; }
 bool Simulation::pruned(int group) const { return parts_->plan->groups[group].pruned; }
 
 ConstColumn Simulation::input(int group, InputKind kind) const {

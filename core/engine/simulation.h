@@ -31,6 +31,7 @@ struct NotFinite {
     double value = 0;
 };
 
+struct Plan;
 struct Unchanged;
 
 /// Runs a system cycle by cycle. A cycle is
@@ -57,12 +58,19 @@ class Simulation {
     /// Compiles a system that make_layout() has checked; `layout` is its result.
     static std::optional<Simulation> build(const model::System& system, Layout layout, const Demand& demand,
                                            const Options& options, Diagnostics& diagnostics);
+    /// The same. Shares the plan of another simulation of this system instead of compiling it again, if it
+    /// fits the demand, and the seed does not decide it. `plan` may be null.
+    static std::optional<Simulation> build(const model::System& system, std::shared_ptr<const Layout> layout,
+                                           const Demand& demand, const Options& options,
+                                           Diagnostics& diagnostics, std::shared_ptr<const Plan> plan);
     Simulation(Simulation&&) noexcept;
     Simulation& operator=(Simulation&&) noexcept;
     ~Simulation();
 
     /// Returns what the system consists of; groups, modules and connections are numbered by it.
     const Layout& layout() const;
+    /// Returns the compiled system, which never changes.
+    std::shared_ptr<const Plan> plan() const;
 
     /// Starts the modules; once, before the first cycle. Throws RunError.
     void start();

@@ -22,11 +22,22 @@ void keep(Archive& archive, const std::vector<Parameter>& parameters, void* obje
     }
 }
 
+/// An object of a type with these parameters.
+template <class Type>
+auto make(const Type& type, const std::vector<ParameterValue>& parameters, double seconds_per_cycle) {
+    auto out = type.make();
+    for (std::size_t i = 0; i < parameters.size(); ++i)
+        type.parameters[i].set(out->parameters(), parameters[i]);
+    if constexpr (requires { type.set_dt; })
+        if (type.set_dt) type.set_dt(out->parameters(), seconds_per_cycle);
+    return out;
+}
+
 void keep(Archive& archive, const GroupPlan& plan, const Layout::Group& about, GroupState& g) {
     archive.same(about.id, "a group");
     archive.same(plan.cells, about.path);
     std::uint64_t drawn = 0;  // by this seed
-    plan.random.bits(0, {&drawn, 1});
+    g.random.bits(0, {&drawn, 1});
     archive.same(drawn, "the seed");
     keep(archive, about.type.parameters, g.neuron->parameters());
     archive.same(plan.pruned, "what is pruned");
@@ -66,14 +77,18 @@ void keep(Archive& archive, const ConnectionPlan& plan, const Layout::Connection
 
 }  // namespace
 
-void State::begin(const Plan& plan) {
+State::State(const Plan& plan, const Options& options)
+    : groups(plan.groups.size()), modules(plan.modules.size()), connections(plan.connections.size()) {
+    const double dt = plan.layout.seconds_per_cycle;
     numbers.assign(plan.rows.size(), 0.0);
     const auto at = [&](Rows::Offset offset) { return numbers.data() + offset; };
     for (std::size_t i = 0; i < groups.size(); ++i) {
         const auto& p = plan.groups[i];
-        if (p.pruned) continue;
         const auto& type = plan.layout.groups[i].type;
         auto& g = groups[i];
+        g.neuron = make(type, p.parameters, dt);
+        g.random = RandomStream(options.seed, plan.layout.groups[i].id);
+        if (p.pruned) continue;
         for (std::size_t s = 0; s < p.states.size(); ++s) {
             const auto [first, depth] = p.states[s];
             g.states.push_back({at(first), depth});
@@ -88,6 +103,15 @@ void State::begin(const Plan& plan) {
         const auto& about = plan.layout.modules[i];
         const auto cells = [&](int group) { return group < 0 ? 0 : plan.groups[group].cells; };
         auto& m = modules[i];
+        m.module = make(about.type, plan.modules[i].parameters, dt);
+        m.ports = about.ports;
+        m.ports.random = RandomStream(options.seed, about.process_id);
+        m.ports.environment = options.environment;
+        m.ports.seed = options.seed;
+        m.ports.directory = options.directory;
+        if (options.open)
+            m.ports.open = [open = options.open, process = about.process](
+                               const std::string& name) -> std::ostream& { return open(process, name); };
         for (const int g : about.input_groups) m.in.emplace_back(nullptr, cells(g));
         for (std::size_t port = 0; port < about.output_groups.size(); ++port) {
             const Index n = cells(about.output_groups[port]);
@@ -98,6 +122,7 @@ void State::begin(const Plan& plan) {
     }
     for (std::size_t i = 0; i < connections.size(); ++i) {
         const auto& p = plan.connections[i];
+        connections[i].synapse = make(plan.layout.connections[i].type, p.parameters, dt);
         if (p.pruned) continue;
         for (std::size_t f = 0; f < p.feedback.size(); ++f) {
             const int s = p.feedback[f];
@@ -109,6 +134,16 @@ void State::begin(const Plan& plan) {
         }
         if (p.plastic) p.plastic->begin(numbers.data());
         if (p.kernel) connections[i].workspace = p.kernel->make_workspace();
+    }
+    for (const auto& first : plan.first_numbers) {
+        if (first.group < 0) {
+            const auto* plastic = plan.connections[first.connection].plastic;
+            if (plastic) plastic->set_state(numbers.data(), first.state, first.values);
+            continue;
+        }
+        const auto& ring = groups[first.group].states[first.state];
+        for (std::int64_t row = 0; row < ring.depth; ++row)
+            std::ranges::copy(first.values, ring.ring + row * plan.groups[first.group].stride);
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/base/archive.h"
 #include "core/base/huge_pages.h"
+#include "core/engine/options.h"
 #include "core/engine/plan/plan.h"
 
 namespace forage::engine {
@@ -15,6 +16,7 @@ namespace forage::engine {
 /// What a run knows about a group; cycle.h explains how a cycle uses it.
 struct GroupState {
     std::unique_ptr<NeuronInstance> neuron;  ///< holds parameters
+    RandomStream random;
 
     bool quiescent = false;      ///< with this input an update changes nothing
     bool delivered = false;      ///< the other row of `inputs` holds what the next update reads
@@ -34,6 +36,7 @@ struct GroupState {
 
 struct ModuleState {
     std::unique_ptr<ModuleInstance> module;
+    ModulePorts ports;
     std::vector<ConstColumn> in;
     std::vector<Column> out;
     std::vector<char> written, changed;  ///< per output: in this cycle; changed: with other numbers
@@ -49,7 +52,8 @@ struct ConnectionState {
 };
 
 struct State {
-    State() = default;
+    /// The state in which a run begins.
+    State(const Plan& plan, const Options& options);
     State(const State&) = delete;  // it points into itself
     State& operator=(const State&) = delete;
 
@@ -61,8 +65,6 @@ struct State {
     std::uint64_t cycle = 0;  ///< the number of completed cycles
     std::uint64_t shown = 0;  ///< the cycle whose numbers are read
 
-    /// Allocates the numbers and gives them their initial values. The instances of the types exist already.
-    void begin(const Plan& plan);
     /// Writes or reads all of it. Throws what Simulation::checkpoint() throws.
     void checkpoint(const Plan& plan, Archive& archive);
 };

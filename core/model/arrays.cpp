@@ -273,6 +273,12 @@ void ArrayCheck::initial(const TypeUse& use, const std::vector<std::string>& sta
     }
 }
 
+bool is_drawn(const Initial& i, Constants& constants, const Process* scope) {
+    if (i.array) return false;
+    const auto from = distribution(i.value, constants, scope);
+    return from && from->kind != Distribution::constant;
+}
+
 std::vector<double> initial_values(const Initial& i, Constants& constants, const Process* scope,
                                    const RandomStream& stream, std::size_t count,
                                    std::span<const std::size_t> index) {

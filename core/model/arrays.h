@@ -66,6 +66,9 @@ std::vector<double> initial_values(const Initial& initial, Constants& constants,
                                    const RandomStream& stream, std::size_t count,
                                    std::span<const std::size_t> index = {});
 
+/// Whether these values are random.
+bool is_drawn(const Initial& initial, Constants& constants, const Process* scope);
+
 /// Writes out the formulas of an initial value as the numbers that they have.
 void write_out(Initial& initial, Constants& constants, const Process* scope);
 

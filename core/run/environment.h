@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +28,9 @@ class Environment {
     virtual void step() = 0;
     /// Reads or writes everything that changes in the world. Called only between cycles.
     virtual void checkpoint(Archive& archive) = 0;
+    /// Returns the same world as it begins with another seed, which shares what is constant; null when the
+    /// world cannot do that. May be called while the world steps in another thread.
+    virtual std::unique_ptr<Environment> restarted(std::uint64_t /*seed*/) const { return nullptr; }
 
     /// The names of the robots. The functions below number robots from 0 in this order.
     virtual std::vector<std::string> robot_names() const { return {}; }

@@ -77,18 +77,21 @@ std::optional<Run> Run::make(model::System system, Registry registry,
     if (!model::compute(system, diagnostics)) return std::nullopt;
     auto layout = engine::make_layout(system, registry, diagnostics, environment.get());
     if (!check_threads(options.threads, diagnostics) || !layout) return std::nullopt;
-    return Run(std::move(system), std::move(registry), std::move(environment), std::move(*layout), options);
+    return Run(std::make_shared<const model::System>(std::move(system)),
+               std::make_shared<const Registry>(std::move(registry)), std::move(environment),
+               std::make_shared<const engine::Layout>(std::move(*layout)), options);
 }
 
-Run::Run(model::System system, Registry registry, std::unique_ptr<Environment> environment,
-         engine::Layout layout, const Options& options)
+Run::Run(std::shared_ptr<const model::System> system, std::shared_ptr<const Registry> registry,
+         std::unique_ptr<Environment> environment, std::shared_ptr<const engine::Layout> layout,
+         const Options& options)
     : system_(std::move(system)),
       registry_(std::move(registry)),
-      environment_(std::move(environment)),
       layout_(std::move(layout)),
+      environment_(std::move(environment)),
       options_(options),
       seconds_per_cycle_(environment_ ? environment_->seconds_per_cycle()
-                                      : model::seconds_per_cycle(system_)) {
+                                      : model::seconds_per_cycle(*system_)) {
     if (options.compute_everything) demand_ = engine::Demand::everything();
     module_files_ = &add(std::make_unique<ModuleFiles>(options.directory));
 }
@@ -99,6 +102,18 @@ Run& Run::operator=(Run&& other) noexcept {
     return *std::construct_at(this, std::move(other));
 }
 Run::~Run() = default;
+
+Run Run::restarted(std::uint64_t seed, const std::string& directory) const {
+    auto environment = environment_ ? environment_->restarted(seed) : nullptr;
+    if (environment_ && !environment)
+        throw InputError("the environment of this run cannot be restarted", "open the run again");
+    Options options = options_;
+    options.seed = seed, options.directory = directory;
+    Run out(system_, registry_, std::move(environment), layout_, options);
+    out.demand_ = demand_;
+    out.plan_ = simulation_ ? simulation_->plan() : plan_;
+    return out;
+}
 
 void Run::add_observer(std::unique_ptr<Observer> observer) {
     engine::Demand wanted;
@@ -124,13 +139,13 @@ bool Run::start(Diagnostics& diagnostics) {
     const auto open = [files = module_files_](const auto& process, const auto& name) -> std::ostream& {
         return files->open(process, name);
     };
-    simulation_ = engine::Simulation::build(system_, layout_, demand_,
+    simulation_ = engine::Simulation::build(*system_, layout_, demand_,
                                             {.seed = options_.seed,
                                              .threads = options_.threads,
                                              .environment = environment_.get(),
                                              .directory = options_.directory,
                                              .open = open},
-                                            diagnostics);
+                                            diagnostics, std::move(plan_));
     if (!simulation_) return false;
     for (const auto& o : observers_) o->check(*simulation_, diagnostics);
     if (diagnostics.failed()) return simulation_.reset(), false;
@@ -232,7 +247,7 @@ void Run::write(std::string_view text, std::span<const double> values) {
 
 void Run::set(std::string_view assignment, Diagnostics* warnings) {
     Diagnostics diagnostics;
-    const auto change = model::parse_assignment(system_, registry_, assignment, "set", diagnostics);
+    const auto change = model::parse_assignment(*system_, *registry_, assignment, "set", diagnostics);
     throw_errors(diagnostics);
     start();
     simulation_->check({&*change, 1}, diagnostics);
@@ -243,7 +258,7 @@ void Run::set(std::string_view assignment, Diagnostics* warnings) {
 
 ParameterValue Run::parameter(std::string_view name) {
     Diagnostics diagnostics;
-    const auto which = model::find_parameter(system_, registry_, name, "parameter", diagnostics);
+    const auto which = model::find_parameter(*system_, *registry_, name, "parameter", diagnostics);
     throw_errors(diagnostics);
     start();
     return simulation_->parameter(*which);
@@ -289,7 +304,7 @@ void Run::checkpoint(Archive& archive) {
 
 void Run::adopt(Run& old) {
     start();
-    simulation_->adopt(*old.simulation_, unchanged(old.system_, system_));
+    simulation_->adopt(*old.simulation_, unchanged(*old.system_, *system_));
     if (environment_ && old.environment_) {
         Archive out;
         old.environment_->checkpoint(out);

@@ -54,10 +54,16 @@ class Run {
     Run(Run&&) noexcept;
     Run& operator=(Run&&) noexcept;
     ~Run();
+    /// A run with the same system and environment, in its first state, with another seed. It shares what is
+    /// constant, so that nothing is read, checked or compiled again; a system whose connections or initial
+    /// values are random is compiled. It has no observers, and computes what this run computes, which it does
+    /// not change. `directory` is as in Options. Throws InputError for an environment that cannot be
+    /// restarted.
+    Run restarted(std::uint64_t seed, const std::string& directory = {}) const;
 
-    const model::System& system() const { return system_; }
-    const Registry& registry() const { return registry_; }
-    const engine::Layout& layout() const { return simulation_ ? simulation_->layout() : layout_; }
+    const model::System& system() const { return *system_; }
+    const Registry& registry() const { return *registry_; }
+    const engine::Layout& layout() const { return *layout_; }
     Environment* environment() const { return environment_.get(); }
     bool has_trials() const { return environment_ && environment_->has_trials(0); }
     std::uint64_t seed() const { return options_.seed; }
@@ -155,15 +161,17 @@ class Run {
     std::string digest();
 
   private:
-    Run(model::System system, Registry registry, std::unique_ptr<Environment> environment,
-        engine::Layout layout, const Options& options);
+    Run(std::shared_ptr<const model::System> system, std::shared_ptr<const Registry> registry,
+        std::unique_ptr<Environment> environment, std::shared_ptr<const engine::Layout> layout,
+        const Options& options);
     void add_observer(std::unique_ptr<Observer> observer);
     RunView view();
 
-    model::System system_;
-    Registry registry_;
+    std::shared_ptr<const model::System> system_;  ///< shared with restarted runs, like the next three
+    std::shared_ptr<const Registry> registry_;
+    std::shared_ptr<const engine::Layout> layout_;
+    std::shared_ptr<const engine::Plan> plan_;  ///< of the run that this one restarts, until start()
     std::unique_ptr<Environment> environment_;
-    engine::Layout layout_;  ///< used until the system is compiled
     Options options_;
     double seconds_per_cycle_;
     engine::Demand demand_;  ///< the demand for which the system is compiled

@@ -1,9 +1,10 @@
-"""What Python costs: run.run() beside the command line, step() with a read beside run.run(), an import, and Ctrl-C.
+"""What Python costs: run.run() beside the command line, step() with a read beside run.run(), an import, Ctrl-C, and environments.
 
     python.py FORAGE
 
 with the package in PYTHONPATH. Times are those of one run each, taken in turns; the smallest of each kind counts.
 """
+import itertools
 import os
 import re
 import shutil
@@ -13,8 +14,11 @@ import sys
 import threading
 import time
 
+import numpy
+
 import forage
 from command_line import SYSTEMS, result
+from forage.gym import BugEnv, BugVectorEnv
 
 SYSTEM, WORLD = SYSTEMS / "dac_foraging.iqr", SYSTEMS / "worlds/basic_arena.world"
 CYCLES, TURNS = 40_000, 9
@@ -94,6 +98,47 @@ def interrupt_time(run):
         return time.perf_counter() - sent[0]
 
 
+AGENT = {"system": SYSTEMS / "reactive_foraging.iqr", "sensors": ["Bug/Light"], "motors": ["Bug/Motor"]}
+
+
+def resident():
+    """The memory of this process, MB."""
+    return int(open("/proc/self/statm").read().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+
+def processor_time(function, times):
+    start = time.process_time()
+    for _ in range(times):
+        function()
+    return (time.process_time() - start) / times
+
+
+def resets():
+    env, seed = BugEnv(WORLD, **AGENT), itertools.count()
+    restart = lambda: env.reset(seed=next(seed))
+    seeded, opened = smallest(lambda: processor_time(restart, 300), lambda: processor_time(lambda: BugEnv(WORLD, **AGENT), 3))
+    result("python/reactive foraging", "reset(seed=...)", 1000 * seeded, "ms")
+    result("python/reactive foraging", "reset(seed=...) / a new BugEnv", seeded / opened, "")
+    before = resident()
+    processor_time(restart, 10_000)
+    result("python/reactive foraging", "memory that 10,000 resets leave", resident() - before, "MB")
+
+
+def many_worlds():
+    count, steps = 64, 2000
+    sizes = [resident()]
+    few = BugVectorEnv(1, WORLD, threads=1, **AGENT)
+    sizes.append(resident())
+    env = BugVectorEnv(count, WORLD, threads=1, **AGENT)
+    sizes.append(resident())
+    result("python/64 worlds", "memory of a further one", (sizes[2] - sizes[1] - (sizes[1] - sizes[0])) / (count - 1), "MB")
+    few.close()
+    env.reset(seed=1)
+    actions = numpy.ones(count, int)
+    step = smallest(lambda: processor_time(lambda: env.step(actions), steps))[0]
+    result("python/64 worlds", "cycles per second of the processor", count * 5 / step, "1/s")
+
+
 def main():
     program = sys.argv[1]
     if shutil.which("valgrind"):
@@ -111,6 +156,8 @@ def main():
         act = run["Bug/Light"].act
         run.run(cycles=100)
         result("python/read of a state", "copies", float(act is not run["Bug/Light"].act or act.flags.owndata), "")
+    resets()
+    many_worlds()
 
 
 main()

@@ -111,6 +111,27 @@ def test_episodes_are_the_trials_of_the_run_and_start_where_they_should():
     assert gps == pytest.approx([11, 8, 0.5 + numpy.pi], abs=1e-5)
 
 
+def test_a_seed_begins_everything_again_whatever_happened_before():
+    env = BugEnv(WORLD, DAC, **GROUPS, reward="mean(Bug/Light)", paths=True)
+    for seed, steps in [(3, 0), (4, 5), (3, 8)]:
+        before = env.run
+        before.probe("Bug/Light")
+        before.params["Bug/Light.threshold"] = 0.9
+        before["Bug/Motor"].set(1)
+        for _ in range(steps):
+            env.step(4)
+        cycle, digest = before.cycle, before.digest()
+        fresh = BugEnv(WORLD, DAC, **GROUPS, reward="mean(Bug/Light)", seed=99)
+        assert (env.reset(seed=seed)[0] == fresh.reset(seed=seed)[0]).all()
+        for _ in range(2):
+            assert env.run.digest() == fresh.run.digest() and len(env.run.trials) == len(fresh.run.trials)
+            for one in (env, fresh):
+                for _ in range(30):
+                    one.step(40)
+        assert not env.run.probes and env.run.plot("trajectory")
+        assert (before.cycle, before.digest()) == (cycle, digest) and len(before.probes) == 1
+
+
 @pytest.mark.parametrize(
     "start, why",
     [

@@ -184,6 +184,22 @@ def test_a_module_and_its_twin_in_cpp_write_the_same_bits(twins, seed):
     assert (resumed[0].read("P/B") == resumed[1].read("P/B")).all()
 
 
+@pytest.mark.parametrize("in_python", [True, False])
+def test_a_restarted_run_has_the_bits_of_a_new_one(twins, in_python):
+    system = system_of(module=Trace) if in_python else system_of("neuronLeakyTwin", "synapseOjaTwin", [twins], "moduleTraceTwin")
+    run = forage.open(system)
+    for cycles, seed in [(0, 2), (7, 3), (60, 2)]:
+        run.run(cycles=cycles)
+        run.params["P/A.threshold"] = 0.9
+        run, fresh = run.restarted(seed), forage.open(system, seed=seed)
+        for _ in range(2):
+            assert run.digest() == fresh.digest()
+            for r in (run, fresh):
+                r.run(cycles=50)
+        assert run.params["P/A.threshold"] == fresh.params["P/A.threshold"]
+        assert numpy.array_equal(run.read("Link:weight"), fresh.read("Link:weight"), equal_nan=True)
+
+
 def test_a_plugin_beside_a_system_is_loaded_only_to_run_and_only_if_it_is_trusted(twins, tmp_path, monkeypatch):
     monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path / "config"))
     os.umask(0o022)

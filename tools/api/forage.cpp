@@ -1,5 +1,7 @@
 #include "tools/api/forage/forage.h"
 
+#include <algorithm>
+
 #include "core/base/named_file.h"
 #include "core/plugin/search.h"
 #include "core/run/experiment/tables.h"
@@ -23,6 +25,16 @@ void declare(const OpenOptions& options, Run& run, Diagnostics& diagnostics) {
             run.demand().overwrite_group(column->group);
 }
 
+/// Adds the observers that every run of open() has.
+void add_recorders(Run& run, bool paths) {
+    const Environment* world = run.environment();
+    if (!world) return;
+    for (std::size_t i = 0; i < world->robot_names().size(); ++i) {
+        run.add(std::make_unique<TrialRecorder>(*world, i, run.layout(), "trials.csv"));
+        if (paths) run.add(std::make_unique<PathRecorder>(*world, i, "trajectory.csv"));
+    }
+}
+
 Run make_run(model::System system, Registry types, std::unique_ptr<Environment> environment,
              const OpenOptions& options, Diagnostics& diagnostics) {
     const bool everything = options.compute_everything && !options.observe && !options.overwrite;
@@ -31,11 +43,7 @@ Run make_run(model::System system, Registry types, std::unique_ptr<Environment> 
                          diagnostics);
     if (run) declare(options, *run, diagnostics);
     throw_errors(diagnostics);
-    if (const Environment* world = run->environment())
-        for (std::size_t i = 0; i < world->robot_names().size(); ++i) {
-            run->add(std::make_unique<TrialRecorder>(*world, i, run->layout(), "trials.csv"));
-            if (options.paths) run->add(std::make_unique<PathRecorder>(*world, i, "trajectory.csv"));
-        }
+    add_recorders(*run, options.paths);
     return std::move(*run);
 }
 
@@ -105,6 +113,15 @@ Run open(model::System system, Registry types, std::unique_ptr<Environment> envi
          const OpenOptions& options) {
     Diagnostics diagnostics;
     return make_run(std::move(system), std::move(types), std::move(environment), options, diagnostics);
+}
+
+Run restarted(const Run& run, std::uint64_t seed) {
+    Run out = run.restarted(seed);
+    add_recorders(out, std::ranges::any_of(run.observers(), [](const auto& observer) {
+                      return dynamic_cast<const PathRecorder*>(observer.get()) != nullptr;
+                  }));
+    set_origin(out, run);
+    return out;
 }
 
 RunOutcome run(const RunSpec& spec, const RunCallbacks& callbacks) {

@@ -71,6 +71,12 @@ std::shared_ptr<PythonRun> resume_run(const py::object& state, bool trusted) {
     return std::make_shared<PythonRun>(resume(bytes, trusted));
 }
 
+std::shared_ptr<PythonRun> restart(PythonRun& self, std::uint64_t seed) {
+    const Run& run = self.use();
+    const py::gil_scoped_release others;
+    return std::make_shared<PythonRun>(restarted(run, seed));
+}
+
 py::object save(PythonRun& self, const py::object& file) {
     const std::string bytes = save_state(self.use());
     if (file.is_none()) return py::bytes(bytes);
@@ -284,6 +290,11 @@ source: "Process/Group", "Process/Group:state", some cells of it "Process/Group(
             "digest", [](PythonRun& self) { return self.use().digest(); },
             "A short text that is equal for equal states of system and world: the state that `forage run "
             "--hash` prints.")
+        .def(
+            "restarted", &restart, "seed"_a,
+            R"(A run as forage.open() returned this one, with another seed, at a small part of the time and memory of open().
+
+What is constant is shared; parameters that were set since, probes and callbacks stay with this run, which does not change.)")
         .def(
             "save_state", &save, "file"_a = none,
             R"(Everything that the run needs to continue, in this program or another, with its probes, manipulations and measures. forage.resume() reads it.

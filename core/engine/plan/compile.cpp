@@ -46,8 +46,8 @@ class Budget {
 
 class Compiler {
   public:
-    Compiler(const model::System& system, Layout layout, const Demand& demand, const Options& options,
-             Diagnostics& diagnostics)
+    Compiler(const model::System& system, std::shared_ptr<const Layout> layout, const Demand& demand,
+             const Options& options, Diagnostics& diagnostics)
         : system_(system),
           constants_(system),
           groups_of_(system),
@@ -56,16 +56,15 @@ class Compiler {
           options_(options),
           forms_(options.general_forms ? Forms::general : Forms::fastest),
           diagnostics_(diagnostics),
-          plan_(std::make_unique<Plan>()),
-          state_(std::make_unique<State>()),
+          plan_(std::make_shared<Plan>(std::move(layout), demand)),
           layout_(plan_->layout) {
-        plan_->layout = std::move(layout);
         plan_->overwritten = demand.overwrites_anything();
         pruned_ = prune(layout_, demand);
     }
 
     Compiled run() {
         const int errors_before = diagnostics_.errors();
+        std::unique_ptr<State> state;
         try {
             add_groups();
             add_modules();
@@ -74,28 +73,29 @@ class Compiler {
             if (diagnostics_.errors() > errors_before) return {};
             lay_out();
             order_steps(*plan_);
-            state_->begin(*plan_);
-            for (const auto& set : initial_) set();
+            for (const auto& add : initial_) add();
+            state = std::make_unique<State>(*plan_, options_);
+            if (plan_->seed) plan_->first_numbers = {};  // no other state begins with them
         } catch (const std::bad_alloc&) {
             budget_.report_exhausted(diagnostics_);
             return {};
         } catch (const NotMade&) {
             return {};
         }
-        return {std::move(plan_), std::move(state_)};
+        return {std::move(plan_), std::move(state)};
     }
 
   private:
     struct NotMade {};  ///< reported
 
-    /// An object of a type with the parameters that the file sets.
+    /// The parameters of an object of a type: those that the file sets, and the defaults of the others.
     template <class Type>
-    auto make(const Type& type, const model::TypeUse& use) {
+    std::vector<ParameterValue> parameters(const Type& type, const model::TypeUse& use) {
         try {
-            auto out = type.make();
-            model::apply(use, type.parameters, out->parameters());
-            if constexpr (requires { type.set_dt; })
-                if (type.set_dt) type.set_dt(out->parameters(), layout_.seconds_per_cycle);
+            const auto made = type.make();
+            model::apply(use, type.parameters, made->parameters());
+            std::vector<ParameterValue> out;
+            for (const auto& p : type.parameters) out.push_back(p.get(made->parameters()));
             return out;
         } catch (const std::bad_alloc&) {
             throw;
@@ -117,13 +117,12 @@ class Compiler {
             plan.pruned = pruned_.groups[i];
             plan.keeps_input = demand_.reads_input(i);
             plan.overwritten = demand_.overwrites(i);
-            plan.random = RandomStream(options_.seed, about.id);
             double rows = 2 * static_cast<double>(about.type.input_count());
             for (const auto& s : about.type.states) {
                 plan.states.push_back({0, s.history});
                 rows += static_cast<double>(s.history);
             }
-            state_->groups.emplace_back().neuron = make(about.type, g->neuron);
+            plan.parameters = parameters(about.type, g->neuron);
             if (plan.pruned) continue;
             add_initial(*g, about, i);
             budget_.add(rows, plan.cells, g->at,
@@ -136,18 +135,7 @@ class Compiler {
             const auto& about = layout_.modules[i];
             const auto& use = *order_.modules[i]->module;
             auto& plan = plan_->modules.emplace_back();
-            plan.ports = about.ports;
-            plan.ports.random = RandomStream(options_.seed, about.process_id);
-            plan.ports.environment = options_.environment;
-            plan.ports.system = system_.name;
-            plan.ports.seed = options_.seed;
-            plan.ports.directory = options_.directory;
-            if (options_.open)
-                plan.ports.open = [open = options_.open,
-                                   process = about.process](const std::string& name) -> std::ostream& {
-                    return open(process, name);
-                };
-            state_->modules.emplace_back().module = make(about.type, use);
+            plan.parameters = parameters(about.type, use);
             const auto references = cross_references(use, about.type, true);
             for (int port = 0; port < std::ssize(references); ++port) {
                 plan.read.push_back(!pruned_.outputs[i][port]);
@@ -176,7 +164,8 @@ class Compiler {
             plan.effective = about.effective;
             plan.pruned = pruned_.connections[i];
             plan.reads_states = demand_.reads_synapses(i);
-            state_->connections.emplace_back().synapse = make(about.type, model::synapse_of(*c));
+            plan.parameters = parameters(about.type, model::synapse_of(*c));
+            if (connectivity::is_drawn(*c)) plan_->seed = options_.seed;
             if (!(forms_ == Forms::fastest && about.type.has_gain &&
                   (make_regular(*c, plan) || make_matrix(*c, plan))))
                 make_list(*c, about, plan);
@@ -255,7 +244,9 @@ class Compiler {
         add_initial(c, about, plan, synapses);
         const int number = static_cast<int>(plan_->connections.size()) - 1;
         if (!synapses.weight.empty())
-            set_synapses(number, state_named(about.type, "weight"), std::move(synapses.weight));
+            plan_->first_numbers.push_back({.connection = number,
+                                            .state = state_named(about.type, "weight"),
+                                            .values = std::move(synapses.weight)});
         if (plan.reads_states) plan.pre = synapses.pre, plan.post = synapses.post;
         plan.first_number = plan_->rows.size();
         auto kernel = make_plastic(std::move(synapses), source, target, about.type, plan.reads_states,
@@ -320,16 +311,23 @@ class Compiler {
         return {options_.seed, id, 0x1000u + static_cast<std::uint32_t>(state)};
     }
 
+    /// The values with which a state begins.
+    std::vector<double> numbers(const model::Initial& i, const model::Process* scope,
+                                const RandomStream& stream, std::size_t count,
+                                std::span<const std::size_t> index = {}) {
+        if (model::is_drawn(i, constants_, scope)) plan_->seed = options_.seed;
+        return model::initial_values(i, constants_, scope, stream, count, index);
+    }
+
     void add_initial(const model::Group& g, const Layout::Group& about, int number) {
         for (const auto& i : g.neuron.initial) {
             const int state = state_named(about.type, i.state);
             initial_.push_back([this, &i, &g, &about, number, state] {
-                const auto values = model::initial_values(i, constants_, groups_of_.find(g.id).process,
-                                                          initial_stream(g.id, state),
-                                                          static_cast<std::size_t>(about.shape.cells));
-                const auto& ring = state_->groups[number].states[state];
-                for (std::int64_t row = 0; row < ring.depth; ++row)
-                    std::ranges::copy(values, ring.ring + row * plan_->groups[number].stride);
+                plan_->first_numbers.push_back(
+                    {.group = number,
+                     .state = state,
+                     .values = numbers(i, groups_of_.find(g.id).process, initial_stream(g.id, state),
+                                       static_cast<std::size_t>(about.shape.cells))});
             });
         }
     }
@@ -343,8 +341,8 @@ class Compiler {
             for (std::size_t n = 0; i.array && n < synapses.size(); ++n)
                 index.push_back(static_cast<std::size_t>(synapses.post[n]) * sources +
                                 static_cast<std::size_t>(synapses.pre[n]));
-            auto values = model::initial_values(i, constants_, model::scope_of(c, groups_of_),
-                                                initial_stream(c.id, state), synapses.size(), index);
+            auto values = numbers(i, model::scope_of(c, groups_of_), initial_stream(c.id, state),
+                                  synapses.size(), index);
             const auto none =
                 std::ranges::find_if(values, [](double v) { return std::isnan(v); }) - values.begin();
             if (none < std::ssize(values))
@@ -353,14 +351,10 @@ class Compiler {
                     fmt::format("the state '{}' of the synapse from cell {} to cell {} has no number",
                                 i.state, synapses.pre[none], synapses.post[none]),
                     "only cells without a synapse may have none; cells count from 0");
-            set_synapses(static_cast<int>(plan_->connections.size()) - 1, state, std::move(values));
+            plan_->first_numbers.push_back({.connection = static_cast<int>(plan_->connections.size()) - 1,
+                                            .state = state,
+                                            .values = std::move(values)});
         }
-    }
-    void set_synapses(int number, int state, std::vector<double> values) {
-        initial_.push_back([this, number, state, values = std::move(values)] {
-            const auto* plastic = plan_->connections[number].plastic;
-            if (plastic) plastic->set_state(state_->numbers.data(), state, values);
-        });
     }
 
     /// What every cycle touches lies together: states and one row of each input that is delivered.
@@ -396,18 +390,17 @@ class Compiler {
     const Options& options_;
     Forms forms_;
     Diagnostics& diagnostics_;
-    std::unique_ptr<Plan> plan_;
-    std::unique_ptr<State> state_;
+    std::shared_ptr<Plan> plan_;
     const Layout& layout_;
     Pruned pruned_;
     Budget budget_;
-    std::vector<std::function<void()>> initial_;  ///< set the values with which the states begin
+    std::vector<std::function<void()>> initial_;  ///< add the numbers with which groups begin
 };
 
 }  // namespace
 
-Compiled compile(const model::System& system, Layout layout, const Demand& demand, const Options& options,
-                 Diagnostics& diagnostics) {
+Compiled compile(const model::System& system, std::shared_ptr<const Layout> layout, const Demand& demand,
+                 const Options& options, Diagnostics& diagnostics) {
     return Compiler(system, std::move(layout), demand, options, diagnostics).run();
 }
 

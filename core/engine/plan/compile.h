@@ -13,14 +13,14 @@ namespace forage::engine {
 inline constexpr double most_bytes = 16.0 * (1 << 30);
 
 struct Compiled {
-    std::unique_ptr<const Plan> plan;
+    std::shared_ptr<const Plan> plan;
     std::unique_ptr<State> state;
 };
 
 /// Compiles a system for a demand; `layout` is that of the system. The result is empty when `diagnostics` got
 /// an error, for example because the system needs more than `most_bytes` or more memory than there is.
-Compiled compile(const model::System& system, Layout layout, const Demand& demand, const Options& options,
-                 Diagnostics& diagnostics);
+Compiled compile(const model::System& system, std::shared_ptr<const Layout> layout, const Demand& demand,
+                 const Options& options, Diagnostics& diagnostics);
 
 /// What a demand does not need: groups and connections by their numbers, outputs by module and port.
 struct Pruned {

@@ -60,6 +60,7 @@ std::optional<Layout> make_layout(const model::System& system, const Registry& r
     for (const auto* p : order.modules) {
         Layout::Module m;
         m.process = m.ports.process = model::trim(p->name);
+        m.ports.system = system.name;
         m.process_id = p->id;
         m.type = *registry.module(p->module->type);
         for (const bool outputs : {false, true})

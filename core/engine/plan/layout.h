@@ -24,7 +24,7 @@ struct Layout {
         std::string process;  ///< name of the process that holds it
         std::string process_id;
         ModuleType type;
-        ModulePorts ports;                             ///< without a random stream, which needs a seed
+        ModulePorts ports;                             ///< without what a run decides, such as the seed
         std::vector<int> input_groups, output_groups;  ///< groups behind the ports; -1: unset
     };
     struct Connection {

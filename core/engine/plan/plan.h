@@ -2,11 +2,14 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "core/engine/kernels/kernel.h"
+#include "core/engine/plan/demand.h"
 #include "core/engine/plan/layout.h"
 #include "core/engine/rows.h"
 #include "core/types/neuron_columns.h"
@@ -25,7 +28,7 @@ struct GroupPlan {
     std::vector<int> incoming;           ///< connections that end here, in order
     double delivery_cost = 0;            ///< of all of them, ns
     std::vector<std::pair<int, int>> module_inputs;  ///< modules and ports that write to it, in order
-    RandomStream random;
+    std::vector<ParameterValue> parameters;          ///< with which a run begins, like those below
 
     // Where its numbers stand in State::numbers.
     struct StateRing {
@@ -39,7 +42,7 @@ struct GroupPlan {
 };
 
 struct ModulePlan {
-    ModulePorts ports;
+    std::vector<ParameterValue> parameters;
     std::vector<Rows::Offset> outputs;
     std::vector<char> read;  ///< per output: something that is demanded depends on it
 };
@@ -47,6 +50,7 @@ struct ModulePlan {
 struct ConnectionPlan {
     std::unique_ptr<const Kernel> kernel;    ///< null when it is pruned
     const PlasticKernel* plastic = nullptr;  ///< the kernel, when its synapses have an update()
+    std::vector<ParameterValue> parameters;
     int source = 0, target = 0;
     int state = 0;  ///< of the source, which it transmits
     int longest_delay = 0;
@@ -63,9 +67,24 @@ struct ConnectionPlan {
     std::vector<int> pre, post;
 };
 
-/// A compiled system. Groups, modules and connections have the numbers of the layout.
+/// The numbers with which a state begins, unless they are those of its type.
+struct FirstNumbers {
+    int group = -1, connection = -1;  ///< one of them
+    int state = 0;
+    std::vector<double> values;  ///< one per cell or synapse
+};
+
+/// A compiled system. Groups, modules and connections have the numbers of the layout. Runs that differ only
+/// in what Options says share it, unless the seed decides some of it.
 struct Plan {
-    Layout layout;
+    Plan(std::shared_ptr<const Layout> of, const Demand& demanded)
+        : shared_layout(std::move(of)), layout(*shared_layout), demand(demanded) {}
+
+    std::shared_ptr<const Layout> shared_layout;
+    const Layout& layout;
+    Demand demand;                      ///< for which it is compiled
+    std::optional<std::uint64_t> seed;  ///< that decides connections or first numbers
+    std::vector<FirstNumbers> first_numbers;
     std::vector<GroupPlan> groups;
     std::vector<ModulePlan> modules;
     std::vector<ConnectionPlan> connections;

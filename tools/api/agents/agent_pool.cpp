@@ -23,7 +23,8 @@ AgentPool::AgentPool(const std::shared_ptr<const AgentTask>& task, std::size_t r
                           fmt::format("a whole number from 1 to {}", max_runs));
     if (threads != 0) check_threads(threads, diagnostics);
     throw_errors(std::move(diagnostics));
-    for (std::size_t i = 0; i < runs; ++i) runs_.emplace_back(task, task->options().input.seed + i);
+    runs_.emplace_back(task);
+    for (std::size_t i = 1; i < runs; ++i) runs_.emplace_back(runs_.front(), task->options().input.seed + i);
     const auto usable = static_cast<std::size_t>(threads > 0 ? threads : cores());
     threads_ = std::make_unique<engine::ThreadPool>(static_cast<int>(std::min(usable, runs)));
 }
@@ -39,12 +40,14 @@ void AgentPool::reset(std::span<const std::uint64_t> seeds, std::span<const Pose
             fmt::format("there are {} start poses for {} environments", starts.size(), runs_.size()));
     for (const Pose2& start : starts) check_pose(start.x, start.y, start.yaw);
     const auto width = runs_.front().observation(0).size();
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
+    auto work = [&](int item, int) {
+        const auto i = static_cast<std::size_t>(item);
         runs_[i].reset(seeds.empty() ? std::nullopt : std::optional(seeds[i]),
                        starts.empty() ? starts : starts.subspan(i, 1));
         std::ranges::copy(runs_[i].observation(0),
                           observations.begin() + static_cast<std::ptrdiff_t>(i * width));
-    }
+    };
+    threads_->run(static_cast<int>(runs_.size()), work);
 }
 
 void AgentPool::step(std::span<const double> actions, const Rows& rows) {

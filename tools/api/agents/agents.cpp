@@ -140,16 +140,21 @@ class AgentRun::Driver final : public Observer {
 
 AgentRun::AgentRun(std::shared_ptr<const AgentTask> task, std::optional<std::uint64_t> seed)
     : task_(std::move(task)) {
-    reset(seed.value_or(task_->options().input.seed));
+    open(task_->open(seed.value_or(task_->options().input.seed)));
+    reset();
+}
+
+AgentRun::AgentRun(const AgentRun& other, std::uint64_t seed) : task_(other.task_) {
+    open(restarted(*other.run_, seed));
+    reset();
 }
 
 AgentRun::AgentRun(AgentRun&&) noexcept = default;
 AgentRun::~AgentRun() = default;
 
-void AgentRun::open(std::uint64_t seed) {
-    auto run = std::make_shared<Run>(task_->open(seed));
+void AgentRun::open(Run run) {
     film_.reset();
-    run_ = std::move(run);
+    run_ = std::make_shared<Run>(std::move(run));
     world_ = &dynamic_cast<bug::World&>(*run_->environment());
     motors_ = std::make_shared<std::vector<Motor>>();
     agents_.clear();
@@ -208,7 +213,7 @@ void AgentRun::reset(std::optional<std::uint64_t> seed, std::span<const Pose2> s
         throw InputError(fmt::format("there are {} start poses for {} agents", starts.size(),
                                      task_->options().agents.size()));
     for (const Pose2& start : starts) check_pose(start.x, start.y, start.yaw);
-    if (seed) open(*seed);
+    if (seed) open(restarted(*run_, *seed));
     check_starts(starts);
     for (std::size_t i = 0; i < agents_.size(); ++i) {
         world_->begin_trial(agents_[i].robot, starts.empty() ? std::nullopt : std::optional(starts[i]));

@@ -88,11 +88,13 @@ class AgentRun {
 
     /// Opens the run, with the seed of the task if none is given, and begins an episode. Throws InputError.
     explicit AgentRun(std::shared_ptr<const AgentTask> task, std::optional<std::uint64_t> seed = {});
+    /// A further run of the same task, which shares what is constant.
+    AgentRun(const AgentRun& other, std::uint64_t seed);
     AgentRun(AgentRun&&) noexcept;
     ~AgentRun();
 
     /// Begins an episode of all agents: their robots are at new start poses, or at `starts`. The robots stand
-    /// for as many cycles as a sensed value needs to its group. With a seed the run is opened again;
+    /// for as many cycles as a sensed value needs to its group. With a seed the run is restarted;
     /// otherwise a brain keeps what it has learned. Throws InputError when `starts` has not one pose per
     /// agent, and for poses that are out of bounds, where something is, or where a trial ends at once; the
     /// next reset() begins an episode.
@@ -136,7 +138,7 @@ class AgentRun {
         std::size_t trials = 0;  ///< the number of finished trials when the episode began
         Outcome outcome;
     };
-    void open(std::uint64_t seed);
+    void open(Run run);
     State bind(const Agent& agent, Diagnostics& diagnostics);
     void check_starts(std::span<const Pose2> starts);
     void stop(const State& agent);

@@ -61,6 +61,12 @@ Run open(const std::string& system, const OpenOptions& options = {}, Diagnostics
 Run open(model::System system, Registry types, std::unique_ptr<Environment> environment = nullptr,
          const OpenOptions& options = {});
 
+/// A run as open() returned it, with another seed, at a small part of the time and memory of open(): it
+/// shares with `run` what is constant (Run::restarted()). Parameters that were set since, recordings and
+/// other observers stay with `run`, which does not change. Throws InputError for a run in an environment of
+/// the caller that cannot be restarted.
+Run restarted(const Run& run, std::uint64_t seed);
+
 /// Everything that a run needs to continue in this program or another: how open() was called, the digests of
 /// its files, its recordings in memory, manipulations and measures, and its state. Throws InputError for a
 /// run that was not opened from a file or has other observers, and engine::RunError for modules of a type

@@ -148,6 +148,19 @@ std::string origin_of(const std::string& system, const std::string& text, OpenOp
     return archive.bytes();
 }
 
+void set_origin(Run& run, const Run& restarted) {
+    if (restarted.opened_as.empty()) return;
+    Origin origin;
+    Archive{std::string_view(restarted.opened_as)}(origin);
+    origin.options.seed = run.seed();
+    RunInput input;
+    input.system = origin.system, input.world = origin.options.world, input.seed = run.seed();
+    run.title = run_title(input);
+    Archive archive;
+    archive(origin);
+    run.opened_as = archive.bytes();
+}
+
 std::string save_state(Run& run) {
     if (run.opened_as.empty())
         throw InputError("a run of a system that was built in code cannot be saved as a whole",

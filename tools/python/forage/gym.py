@@ -151,7 +151,7 @@ class _Rendered:
 
     @property
     def run(self) -> _forage.Run:
-        """The forage.Run in which the agents act, to read, record and change; reset(seed=...) makes a new one.
+        """The forage.Run in which the agents act, to read, record and change; reset(seed=...) makes a new one, Run.restarted().
 
         Only what the agents sense, the reward and the modules depend on is computed in it.
         """
@@ -245,7 +245,7 @@ class BugEnv(_Rendered, Env):  # type: ignore[misc]
     def reset(self, *, seed: int | None = None, options: typing.Any = None) -> typing.Any:
         """Begins an episode, and returns (observation, info).
 
-        With a seed, the run is opened again, and the same actions give the same bits. Without one, the brain keeps what it has
+        With a seed, the run is restarted, and the same actions give the same bits. Without one, the brain keeps what it has
         learned, and the robot starts at the next start pose. options={"start": (x, y, yaw)}, in m and rad, places it there.
 
         Raises InputError for other options, and for a pose that is out of bounds, where something is, or where a trial ends
