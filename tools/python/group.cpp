@@ -80,7 +80,7 @@ py::list directory(const py::object& self) {
 /// One pattern per cycle: `values` is a number, an array of the group's shape, or a list of such arrays.
 std::vector<std::vector<double>> patterns_of(const py::object& values, const GroupShape& group,
                                              const std::string& what) {
-    const py::array_t<double, py::array::c_style | py::array::forcecast> array(values);
+    const auto array = numeric_array(values, what);
     std::vector<std::vector<double>> out;
     if (array.ndim() == static_cast<py::ssize_t>(shape_of(group).size()) + 1)
         for (const auto& pattern : array)

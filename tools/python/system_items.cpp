@@ -107,7 +107,7 @@ SystemProcess set_module(const SystemProcess& self, const py::object& module, co
     auto before = std::exchange(process.module, std::move(use));
     try {
         SystemParameters(self).set(values);
-    } catch (const InputError&) {
+    } catch (...) {
         process.module = std::move(before);
         throw;
     }
@@ -139,7 +139,7 @@ SystemGroup add_group(const SystemProcess& self, const std::string& name, int wi
         out.use().topology = model::RectTopology{width, height, wrap_x, wrap_y};
     try {
         SystemParameters(out).set(values);
-    } catch (const InputError&) {
+    } catch (...) {
         model::remove(system.model, out.id);
         throw;
     }
@@ -510,8 +510,8 @@ void SystemParameters::set(const py::dict& values) const {
         all.push_back(std::move(*a));
     }
     throw_errors(diagnostics);
+    warn(diagnostics);  // which may be raised: nothing is set then
     for (const auto& a : all) model::set(system->model, a);
-    warn(diagnostics);
 }
 
 SystemGroup group_of(PythonSystem& system, const py::object& group) {

@@ -51,8 +51,10 @@ py::object Parameters::get(const std::string& name) const { return value_of(run-
 
 void Parameters::set(const std::string& name, const py::object& value) const {
     Diagnostics warnings;
-    run->use().set(fmt::format("{}={}", name, text_of(value)), &warnings);
-    warn(warnings);
+    const std::string assignment = fmt::format("{}={}", name, text_of(value));
+    run->use().check(assignment, &warnings);
+    warn(warnings);  // which may be raised: nothing is set then
+    run->use().set(assignment);
 }
 
 std::vector<std::string> Parameters::names() const {
@@ -137,8 +139,8 @@ void add_measure(PythonRun& run, const std::string& name, const py::kwargs& kind
     auto measures = std::make_unique<RunMeasures>(std::span(&m, 1), r.layout(), r.environment(), diagnostics);
     throw_errors(diagnostics);
     measures->check(r.simulation(), diagnostics);
-    r.add(std::move(measures));
     warn(diagnostics);
+    r.add(std::move(measures));
 }
 
 py::array measures(PythonRun& run) {

@@ -1,5 +1,7 @@
 #include "tools/python/values.h"
 
+#include <string_view>
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -68,8 +70,17 @@ py::array array_of(std::vector<double> values, const std::vector<py::ssize_t>& s
     return py::array_t<double>(shape, kept->data(), keeper);
 }
 
+py::array_t<double, py::array::c_style | py::array::forcecast> numeric_array(const py::object& values,
+                                                                             const std::string& what) {
+    const auto array = py::array::ensure(values);
+    if (!array || std::string_view("biuf").find(array.dtype().kind()) == std::string_view::npos)
+        throw InputError(fmt::format("{}: a number or an array of numbers is needed, not a value of type {}",
+                                     what, class_name(values)));
+    return {array};
+}
+
 std::vector<double> numbers_of(const py::object& values, const GroupShape& group, const std::string& what) {
-    const py::array_t<double, py::array::c_style | py::array::forcecast> array(values);
+    const auto array = numeric_array(values, what);
     check_finite({array.data(), static_cast<std::size_t>(array.size())}, what);
     const auto cells = static_cast<std::size_t>(group.cells);
     if (array.ndim() == 0) return std::vector<double>(cells, *array.data());

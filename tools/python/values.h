@@ -56,6 +56,10 @@ void take(const py::kwargs& given, const char* name, T& value) {
 
 /// A number of cycles or trials, which `name` begins the message about. Throws InputError for one below 0.
 std::optional<std::uint64_t> count_of(const char* name, std::optional<std::int64_t> count);
+/// `values` as an array of 64-bit numbers. Throws InputError, which begins with `what`, for texts, None and
+/// other things that are no numbers.
+py::array_t<double, py::array::c_style | py::array::forcecast> numeric_array(const py::object& values,
+                                                                             const std::string& what);
 /// Paths as texts.
 std::vector<std::string> texts_of(const std::vector<std::filesystem::path>& paths);
 /// A value as assignments spell it: true, 0.3, text.

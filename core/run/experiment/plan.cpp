@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/digest.h"
 #include "core/base/output_files.h"
 #include "core/model/lookup.h"
 
@@ -27,6 +28,8 @@ RunSpec common(const model::Experiment& e) {
         e.plots, [](const auto& plot) { return model::trim(plot.text).starts_with("trajectory"); });
     return o;
 }
+
+constexpr std::size_t max_name = 200;  ///< bytes of the part of a folder's name that tells the values
 
 /// "eta" of "Adaptive.eta".
 std::string short_name(const std::string& parameter) {
@@ -84,6 +87,12 @@ std::string RunPlan::combination_name(std::size_t combination) const {
         const auto& value = sweep.values[chosen(sweep, combination)].text;
         const std::string shown = sweep.files.empty() ? value : std::filesystem::path(value).stem().string();
         out += file_name(fmt::format("{}-{}_", short_name(sweep.parameter.text), shown));
+    }
+    if (out.size() > max_name) {  // names of files have at most 255 bytes
+        const std::string whole = digest(out).substr(0, 16);
+        std::size_t kept = max_name - whole.size() - 2;
+        while ((out[kept] & 0xC0) == 0x80) --kept;  // not within a character of UTF-8
+        out = fmt::format("{}_{}_", out.substr(0, kept), whole);
     }
     return out;
 }

@@ -63,7 +63,7 @@ parameters = with_table(("parameter", "value"), _values)
 
 
 def recording(self):
-    cells = self.data.reshape(len(self), -1)
+    cells = self._table()
     rows = [(int(c), float(r.min()), float(r.mean()), float(r.max())) for c, r in _ends(list(zip(self.cycles, cells)))]
     return plain(self) + table(("cycle", "smallest", "mean", "largest"), rows)
 

@@ -11,6 +11,7 @@ import typing
 import numpy
 
 from . import _forage
+from ._errors import RunError
 from ._experiment import Path, Progress, Table, _reporter, _seeds, sweep
 
 Cost = typing.Union[str, typing.Callable[[Table], float]]
@@ -58,7 +59,7 @@ def optimise(
     directory: keeps the results of each generation in a folder of its own. The same call then continues after a kill, and computes no run again.
     progress: as for experiment(). measure and other options: as for sweep(), which executes the generations; for example trials, jobs, executor.
 
-    Raises InputError for mistakes, before the first run, and what `cost` raises.
+    Raises InputError for mistakes, before the first run, RunError when no point has a finite cost, and what `cost` raises.
     """
     names, limits = list(bounds), numpy.array([tuple(limit) for limit in bounds.values()], dtype=float).reshape(-1, 2)
     if not names or not (numpy.isfinite(limits).all() and (limits[:, 0] < limits[:, 1]).all()):
@@ -101,6 +102,8 @@ def optimise(
     _METHODS[method](evaluate, len(names), generations, population, seed)
     rows = numpy.array(history, dtype=[("generation", "i8"), *((name, "f8") for name in names), ("cost", "f8")])
     best = rows[rows["cost"].argmin()]
+    if not math.isfinite(best["cost"]):
+        raise RunError(f"none of the {len(rows)} points has a cost: all runs failed, or the cost is NaN")
     return Optimum({name: float(best[name]) for name in names}, float(best["cost"]), rows)
 
 

@@ -1,6 +1,8 @@
 """What a probe has recorded, and its way to other packages, which are imported when they are needed."""
 from __future__ import annotations
 
+import math
+
 TYPE_CHECKING = False  # that of `typing`, whose import takes time
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -70,7 +72,7 @@ class Recording:
         return str(_html.recording(self))  # type: ignore[no-untyped-call]
 
     def _table(self) -> NDArray[numpy.float64]:
-        return self.data.reshape(len(self.cycles), -1)
+        return self.data.reshape(len(self.cycles), math.prod(self.shape[1:]))
 
     def to_pandas(self) -> Any:
         """A pandas.DataFrame: one row per cycle, one column per cell, named as in the files of `forage run --record`."""
