@@ -295,6 +295,7 @@ void Cycle::deliver_through(int connection, const Share* share) {
     const auto& from = plan_.groups[plan.source];
     const auto &source = state_.groups[plan.source], &target = state_.groups[plan.target];
     auto& c = state_.connections[connection];
+    const Kernel* kernel = kernel_of(plan, c);
     const auto& shown = source.states[static_cast<std::size_t>(plan.state)];
     const KernelInput in{state_row(source, from, plan.state, state_.cycle),
                          plan.state == from.output ? Ring{source.past, from.history + 1, from.stride}
@@ -306,13 +307,13 @@ void Cycle::deliver_through(int connection, const Share* share) {
                          c.workspace.get()};
     double* row = target.inputs[static_cast<std::size_t>(plan.kind)][target.row ^ 1];
     try {
-        auto* shared = share ? dynamic_cast<const SharedKernel*>(plan.kernel.get()) : nullptr;
+        auto* shared = share ? dynamic_cast<const SharedKernel*>(kernel) : nullptr;
         if (!(plan.effective && target.receives)) {
             if (plan.plastic) plan.plastic->learn(in);
         } else if (shared) {
             (*share)(*shared, in, row, plan.first);
         } else {
-            plan.kernel->deliver(in, row, plan.first);
+            kernel->deliver(in, row, plan.first);
         }
     } catch (...) {
         const auto& about = plan_.layout.connections[connection];

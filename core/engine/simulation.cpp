@@ -166,6 +166,21 @@ void Simulation::set(const model::Assignment& change) {
     parts_->constants->set(change);
 }
 
+void Simulation::replace_synapses(int connection, connectivity::Synapses synapses) {
+    engine::replace_synapses(*parts_->plan, parts_->state->connections[connection], connection,
+                             std::move(synapses));
+}
+
+const connectivity::Synapses& Simulation::replaced_synapses(int connection) const {
+    return parts_->state->connections[connection].own;
+}
+
+void Simulation::set_synapse_state(int connection, int state, std::span<const double> values) {
+    auto& now = *parts_->state;
+    parts_->plan->connections[connection].plastic->set_state(now.numbers.data(), state, values);
+    now.connections[connection].changed = true;
+}
+
 ParameterValue Simulation::parameter(const model::Assignment& which) const {
     if (is_constant(which)) return parts_->constants->value(which);
     return engine::parameter(*parts_->plan, *parts_->state, which);
@@ -236,8 +251,9 @@ bool Simulation::has_written(int module, int port) const {
 }
 
 std::string_view Simulation::connection_form(int connection) const {
-    const auto& c = parts_->plan->connections[connection];
-    return c.kernel ? c.kernel->form() : "pruned";
+    const auto* kernel =
+        kernel_of(parts_->plan->connections[connection], parts_->state->connections[connection]);
+    return kernel ? kernel->form() : "pruned";
 }
 
 double Simulation::connection_cost(int connection) const {

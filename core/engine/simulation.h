@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/connectivity/connect.h"
 #include "core/engine/options.h"
 #include "core/engine/plan/demand.h"
 #include "core/engine/plan/layout.h"
@@ -104,6 +105,15 @@ class Simulation {
     /// the demand lets users overwrite activities there.
     void set(const model::Assignment& change);
 
+    /// Gives a connection, whose type multiplies by a constant, other synapses in this simulation: as many,
+    /// of the same cells and delays, as those of the system, with their own attenuations. It must not be
+    /// pruned.
+    void replace_synapses(int connection, connectivity::Synapses synapses);
+    /// Returns those synapses; none when they were not replaced.
+    const connectivity::Synapses& replaced_synapses(int connection) const;
+    /// Sets a state of the synapses of a connection that is not pruned, one number per synapse, in the order
+    /// of connectivity::connect().
+    void set_synapse_state(int connection, int state, std::span<const double> values);
     /// Returns the present value of a parameter. Throws RunError for a module that is disabled.
     ParameterValue parameter(const model::Assignment& which) const;
 

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/exception_message.h"
+#include "core/engine/kernels/forms.h"
 #include "core/engine/run_error.h"
 
 namespace forage::engine {
@@ -67,15 +68,51 @@ void keep(Archive& archive, const ModulePlan& plan, const Layout::Module& about,
     }
 }
 
-void keep(Archive& archive, const ConnectionPlan& plan, const Layout::Connection& about, ConnectionState& c) {
+/// Reads or writes synapses that a run has of its own.
+void keep_own(Archive& archive, const Plan& plan, int connection, ConnectionState& c) {
+    connectivity::Synapses own;
+    if (!archive.loading()) own = c.own;
+    archive(own.pre, own.post, own.delay, own.attenuation);
+    if (!archive.loading()) return;
+    const auto& p = plan.connections[connection];
+    const auto fit = [&](const std::vector<int>& all, Index end) {
+        return all.size() == own.size() && std::ranges::all_of(all, [&](int n) { return n >= 0 && n < end; });
+    };
+    if (own.size() == 0 || own.attenuation.size() != own.size() || !p.kernel || p.plastic ||
+        !fit(own.pre, plan.groups[p.source].cells) || !fit(own.post, plan.groups[p.target].cells) ||
+        !fit(own.delay, p.longest_delay + 1))
+        throw ArchiveError("the synapses in the checkpoint are those of another connection");
+    own.reference = 0;
+    replace_synapses(plan, c, connection, std::move(own));
+}
+
+void keep(Archive& archive, const Plan& whole, int number, ConnectionState& c) {
+    const auto& plan = whole.connections[number];
+    const auto& about = whole.layout.connections[number];
     archive.same(about.id, "a connection");
     archive.same(plan.synapses, about.name);
     keep(archive, about.type.parameters, c.synapse->parameters());
     archive.same(plan.pruned, "what is pruned");
-    archive(c.changed);
+    constexpr std::uint8_t changed = 1, own = 2;
+    auto flags = static_cast<std::uint8_t>((c.changed ? changed : 0) | (c.own_kernel ? own : 0));
+    archive(flags);
+    if (flags & own)
+        keep_own(archive, whole, number, c);
+    else if (archive.loading() && c.own_kernel)
+        c.own = {}, c.own_kernel = nullptr, c.workspace = plan.kernel->make_workspace();
+    c.changed = flags & changed;
 }
 
 }  // namespace
+
+void replace_synapses(const Plan& plan, ConnectionState& c, int connection, connectivity::Synapses synapses) {
+    const auto& p = plan.connections[connection];
+    c.own = synapses;
+    c.own_kernel = make_kernel(std::move(synapses), plan.layout.groups[p.source].shape,
+                               plan.layout.groups[p.target].shape, Forms::fastest);
+    c.workspace = c.own_kernel->make_workspace();
+    c.changed = true;
+}
 
 State::State(const Plan& plan, const Options& options)
     : groups(plan.groups.size()), modules(plan.modules.size()), connections(plan.connections.size()) {
@@ -156,7 +193,7 @@ void State::checkpoint(const Plan& plan, Archive& archive) {
     for (std::size_t i = 0; i < modules.size(); ++i)
         keep(archive, plan.modules[i], plan.layout.modules[i], modules[i]);
     for (std::size_t i = 0; i < connections.size(); ++i)
-        keep(archive, plan.connections[i], plan.layout.connections[i], connections[i]);
+        keep(archive, plan, static_cast<int>(i), connections[i]);
     archive.same(numbers.size(), "the memory");
     archive.numbers(numbers.data(), numbers.size());
     archive(started, cycle, shown);

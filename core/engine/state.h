@@ -8,6 +8,7 @@
 
 #include "core/base/archive.h"
 #include "core/base/huge_pages.h"
+#include "core/connectivity/connect.h"
 #include "core/engine/options.h"
 #include "core/engine/plan/plan.h"
 
@@ -49,6 +50,8 @@ struct ConnectionState {
     bool changed = false;                      ///< from outside, since it delivered
     std::vector<Ring> feedback;                ///< of a plastic one
     std::unique_ptr<Workspace> workspace;      ///< of its kernel; holds nothing that is of later use
+    connectivity::Synapses own;                ///< those of this run, in place of the plan's; often empty
+    std::unique_ptr<const Kernel> own_kernel;  ///< of these; else null
 };
 
 struct State {
@@ -68,6 +71,14 @@ struct State {
     /// Writes or reads all of it. Throws what Simulation::checkpoint() throws.
     void checkpoint(const Plan& plan, Archive& archive);
 };
+
+/// Gives a connection of this run synapses of its own, with which it has the same delays at most.
+void replace_synapses(const Plan& plan, ConnectionState& c, int connection, connectivity::Synapses synapses);
+
+/// Returns what computes a connection in this run.
+inline const Kernel* kernel_of(const ConnectionPlan& plan, const ConnectionState& c) {
+    return c.own_kernel ? c.own_kernel.get() : plan.kernel.get();
+}
 
 /// Returns a group's state in a cycle that its ring still holds.
 inline double* state_row(const GroupState& g, const GroupPlan& plan, int state, std::uint64_t cycle) {

@@ -246,14 +246,19 @@ void Run::write(std::string_view text, std::span<const double> values) {
 }
 
 void Run::set(std::string_view assignment, Diagnostics* warnings) {
+    const auto change = check(assignment, warnings);
+    simulation_->set(change);
+}
+
+model::Assignment Run::check(std::string_view assignment, Diagnostics* warnings) {
     Diagnostics diagnostics;
     const auto change = model::parse_assignment(*system_, *registry_, assignment, "set", diagnostics);
     throw_errors(diagnostics);
     start();
     simulation_->check({&*change, 1}, diagnostics);
     throw_errors(diagnostics);
-    simulation_->set(*change);
     if (warnings) *warnings = std::move(diagnostics);
+    return *change;
 }
 
 ParameterValue Run::parameter(std::string_view name) {

@@ -130,6 +130,8 @@ class Run {
     /// a module, "Connection.parameter=value" of a synapse. Throws InputError. Warnings are added to
     /// `warnings`, if it is not null.
     void set(std::string_view assignment, Diagnostics* warnings = nullptr);
+    /// Returns the change that set() would make. Throws InputError when set() would.
+    model::Assignment check(std::string_view assignment, Diagnostics* warnings = nullptr);
     /// The present value of a parameter such as "Process/Group.threshold". Throws InputError.
     ParameterValue parameter(std::string_view name);
 

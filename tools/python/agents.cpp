@@ -7,12 +7,15 @@
 #include <filesystem>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "core/run/weights.h"
 #include "tools/api/agents/agent_pool.h"
 #include "tools/python/run.h"
 #include "tools/python/values.h"
+#include "tools/python/weights.h"
 
 namespace forage::python {
 namespace {
@@ -187,15 +190,38 @@ py::array_t<float> table_of(AgentPool& pool) {
     return py::array_t<float>({pool.size(), pool[0].observation(0).size()});
 }
 
-py::array_t<float> reset_pool(PythonPool& self, const std::vector<std::uint64_t>& seeds,
-                              const Starts& starts) {
+py::array_t<float> reset_pool(PythonPool& self, const std::vector<std::optional<std::uint64_t>>& seeds,
+                              const Starts& starts, const std::optional<py::array_t<bool>>& mask) {
     const InUse use(self.in_use);
     const auto poses = poses_of(starts);
     auto out = table_of(self.pool);
     const auto rows = span_of(out);
+    const std::span<const bool> chosen =
+        mask ? std::span<const bool>(mask->data(), static_cast<std::size_t>(mask->size()))
+             : std::span<const bool>();
     const py::gil_scoped_release others;
-    self.pool.reset(seeds, poses, rows);
+    self.pool.reset(seeds, poses, chosen, rows);
     return out;
+}
+
+/// The parameters and weights of environments: `runs` is 1, or the number of runs of a pool.
+template <class Agents>
+void set_weights(Agents& agents, const Run& run, std::size_t runs, const std::string& name,
+                 const py::object& values) {
+    const auto array = weights_of(values);
+    const auto& layout = run.layout();
+    const auto& c = layout.connections[static_cast<std::size_t>(find_connection(run, name))];
+    const auto cells = [&](int g) { return layout.groups[static_cast<std::size_t>(g)].shape.cells; };
+    std::vector<py::ssize_t> shape(array.shape(), array.shape() + array.ndim());
+    if (shape.size() == 3 && static_cast<std::size_t>(shape[0]) == runs) shape.erase(shape.begin());
+    if (shape != std::vector<py::ssize_t>{cells(c.target), cells(c.source)})
+        throw InputError(
+            fmt::format("the weights of connection '{}' are an array of shape ({}, {}): targets, sources",
+                        c.name, cells(c.target), cells(c.source)),
+            runs > 1 ? fmt::format("or of shape ({}, {}, {}), with those of each environment", runs,
+                                   cells(c.target), cells(c.source))
+                     : "");
+    agents.set_weights(name, {array.data(), static_cast<std::size_t>(array.size())});
 }
 
 py::tuple step_pool(PythonPool& self, const py::object& given) {
@@ -229,6 +255,26 @@ void add_agents(py::module_& module) {
         .def(
             "act", [](PythonAgents& self, std::size_t i, const py::object& a) { act(self, i, a); }, "agent"_a,
             "action"_a)
+        .def(
+            "is_connection",
+            [](const PythonAgents& self, const std::string& name) {
+                return is_connection(*self.run.run(), name);
+            },
+            "name"_a)
+        .def(
+            "set_parameter",
+            [](PythonAgents& self, const std::string& assignment) {
+                const InUse use(self.in_use);
+                self.run.set(assignment);
+            },
+            "assignment"_a)
+        .def(
+            "set_weights",
+            [](PythonAgents& self, const std::string& name, const py::object& weights) {
+                const InUse use(self.in_use);
+                set_weights(self.run, *self.run.run(), 1, name, weights);
+            },
+            "connection"_a, "weights"_a)
         .def("step", &step)
         .def("step_with", &step_with, "action"_a)
         .def("observation", &observation, "agent"_a)
@@ -252,7 +298,27 @@ void add_agents(py::module_& module) {
                  return std::make_unique<PythonPool>(read_task(task), runs, threads);
              }),
              "runs"_a, "threads"_a)
-        .def("reset", &reset_pool, "seeds"_a, "starts"_a)
+        .def("reset", &reset_pool, "seeds"_a, "starts"_a, "mask"_a)
+        .def(
+            "is_connection",
+            [](PythonPool& self, const std::string& name) {
+                return is_connection(*self.pool[0].run(), name);
+            },
+            "name"_a)
+        .def(
+            "set_parameters",
+            [](PythonPool& self, const std::vector<std::string>& assignments) {
+                const InUse use(self.in_use);
+                self.pool.set(assignments);
+            },
+            "assignments"_a)
+        .def(
+            "set_weights",
+            [](PythonPool& self, const std::string& name, const py::object& weights) {
+                const InUse use(self.in_use);
+                set_weights(self.pool, *self.pool[0].run(), self.pool.size(), name, weights);
+            },
+            "connection"_a, "weights"_a)
         .def("step", &step_pool, "actions"_a)
         .def("sensors", [](PythonPool& self) { return ports(self.pool[0].sensors(0)); })
         .def("motors", [](PythonPool& self) { return ports(self.pool[0].motors(0)); })

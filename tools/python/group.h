@@ -20,6 +20,12 @@ struct PythonGroup {
     }
 };
 
+/// A connection of a run.
+struct PythonConnection {
+    std::shared_ptr<PythonRun> run;
+    int number;  ///< in the layout
+};
+
 /// The group that `path` names. Throws InputError.
 PythonGroup find_group(PythonRun& run, const std::string& path);
 

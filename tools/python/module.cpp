@@ -10,6 +10,7 @@ PYBIND11_MODULE(_forage, module) {
     add_agents(module);
     add_errors(module);
     add_groups(module);
+    add_connections(module);
     add_parameters(module);
     add_pictures(module);
     add_probes(module);

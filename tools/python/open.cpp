@@ -10,6 +10,7 @@
 
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
+#include "core/run/weights.h"
 #include "tools/api/open/moves.h"
 #include "tools/python/group.h"
 #include "tools/python/picture.h"
@@ -137,6 +138,14 @@ std::vector<std::string> group_paths(const PythonRun& self) {
     std::vector<std::string> out;
     for (const auto& g : self.use().layout().groups) out.push_back(g.path);
     return out;
+}
+
+/// A group, or a connection that has no name of a group.
+py::object item(PythonRun& self, const std::string& name) {
+    const Run& run = self.use();
+    if (is_connection(run, name))
+        return py::cast(PythonConnection{self.shared_from_this(), find_connection(run, name)});
+    return py::cast(find_group(self, name));
 }
 
 bool has_group(const PythonRun& self, const std::string& path) {
@@ -322,7 +331,7 @@ Raises InputError.)_")
 file: a name that ends with .gif, with .mp4 where ffmpeg is installed, or with .png for numbered pictures.
 groups: sources whose activity is shown beside the world, such as "Process/Group".
 Returns a Film, which is complete when it or the run is closed. Raises InputError, also without a world.)");
-    run.def("__getitem__", [](PythonRun& self, const std::string& path) { return find_group(self, path); })
+    run.def("__getitem__", &item)
         .def("__contains__", &has_group)
         .def("__enter__", [](PythonRun& self) { return self.shared_from_this(); })
         .def("__exit__", [](PythonRun& self, const py::args&) { self.close(); })

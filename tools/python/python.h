@@ -14,6 +14,7 @@ namespace py = pybind11;
 
 /// The classes of the package are part of the module `_forage`; each function adds those of one file.
 void add_agents(py::module_& module);
+void add_connections(py::module_& module);
 void add_errors(py::module_& module);
 void add_experiments(py::module_& module);
 void add_groups(py::module_& module);

@@ -66,13 +66,17 @@ SystemConnection connect(PythonSystem& self, const py::object& source, const py:
                          const std::string& kind, const py::object& synapse_type, const std::string& name,
                          const std::string& id, const py::object& pattern, const py::object& arborization,
                          const py::object& attenuation, const py::object& delay,
-                         const std::string& input_name, const std::string& state,
+                         const std::string& input_name, const std::string& state, const py::object& weights,
                          const py::kwargs& parameters) {
     const std::string from = group_of(self, source).id, to = group_of(self, target).id;
     const std::string synapse = type_name(synapse_type);
     require_type(self.types->synapses(), synapse, "synapse");
     const auto input = static_cast<InputKind>(choice(kind, connection_kinds, "kind"));
     model::Connection wanted;
+    if (!weights.is_none()) {
+        if (!pattern.is_none()) throw InputError("weights are a pattern: give one of them");
+        wanted.pattern = pattern_of_weights(weights, false).value;
+    }
     if (!pattern.is_none()) wanted.pattern = argument<PythonPattern>(pattern, "pattern", "a Pattern").value;
     if (!arborization.is_none())
         wanted.arborization = argument<model::Arborization>(arborization, "arborization", "an Arborization");
@@ -86,7 +90,7 @@ SystemConnection connect(PythonSystem& self, const py::object& source, const py:
     c.attenuation = wanted.attenuation, c.delay = wanted.delay;
     try {
         SystemParameters(out).set(parameters);
-    } catch (const InputError&) {
+    } catch (...) {
         model::remove(self.model, out.id);
         throw;
     }
@@ -107,8 +111,14 @@ std::string as_json(const py::object& operations) {
 py::object from_json(const std::string& text) { return py::module_::import("json").attr("loads")(text); }
 
 py::object edit_system(PythonSystem& self, const py::object& operations) {
-    return from_json(
-        warned([&](Diagnostics* warnings) { return edit(self, as_json(operations), warnings); }));
+    const model::System before = self.model;
+    try {
+        return from_json(
+            warned([&](Diagnostics* warnings) { return edit(self, as_json(operations), warnings); }));
+    } catch (...) {  // also a warning that is raised
+        self.model = before;
+        throw;
+    }
 }
 
 py::object edit_the_file(const Path& path, const py::object& operations, const std::optional<Path>& save_as,
@@ -277,11 +287,13 @@ Raises InputError for mistakes in the system, and ValueError for another format.
         .def("connect", &connect, "source"_a, "target"_a, "kind"_a = "excitatory", py::kw_only(),
              "synapse"_a = "synapseFixedWeight", "name"_a = "", "id"_a = "", "pattern"_a = none,
              "arborization"_a = none, "attenuation"_a = 0.0, "delay"_a = 0.0, "input"_a = "", "state"_a = "",
+             "weights"_a = none,
              R"(Adds a connection between two groups, or names of groups, and returns it.
 
 kind: "excitatory", "inhibitory" or "modulatory".
 synapse: the name of a synapse type, or a class that is one (forage.synapse); further keywords are its parameters, such as weight=0.5.
 pattern: which cells it pairs, a Pattern; cells at the same place without it.
+weights: in place of a pattern, an array of shape (targets, sources) or a sparse matrix of SciPy, as in Pattern.weights().
 input: in place of the kind, a further input that the target's type declares.
 state: the state of the source that it transmits; its output without it.
 arborization: how each pair spreads, an Arborization; not at all without it.

@@ -53,8 +53,18 @@ PythonPattern tuples(const std::vector<std::pair<py::iterable, py::iterable>>& p
     return {std::move(out)};
 }
 
+/// The rows source, target, weight of a sparse matrix of SciPy.
+py::object rows_of(const py::object& matrix) {
+    const py::object sparse = matrix.attr("tocoo")();
+    return py::module_::import("numpy").attr("column_stack")(
+        py::make_tuple(sparse.attr("col"), sparse.attr("row"), sparse.attr("data")));
+}
+
+}  // namespace
+
 /// A table of numbers as the text of a file; a text is the name of a file.
-PythonPattern weights(const py::object& numbers, bool list) {
+PythonPattern pattern_of_weights(const py::object& numbers, bool list) {
+    if (py::hasattr(numbers, "tocoo")) return pattern_of_weights(rows_of(numbers), true);
     model::Weights out;
     out.is_list = list;
     if (py::isinstance<py::str>(numbers) || py::hasattr(numbers, "__fspath__")) {
@@ -76,6 +86,8 @@ PythonPattern weights(const py::object& numbers, bool list) {
     }
     return {std::move(out)};
 }
+
+namespace {
 
 /// The cells at one end of a pattern; a list per tuple of a pattern of tuples.
 py::object cells(const model::Pattern& pattern, bool source) {
@@ -192,10 +204,10 @@ all: whether a cell is paired with every cell under its projection, not only wit
                     "Pairs every cell of the source with every cell of the target.")
         .def_static("tuples", &tuples, "pairs"_a,
                     "Pairs each cell of a list with each cell of another: tuples([(sources, targets), ...]).")
-        .def_static("weights", &weights, "numbers"_a, py::kw_only(), "list"_a = false,
+        .def_static("weights", &pattern_of_weights, "numbers"_a, py::kw_only(), "list"_a = false,
                     R"(A synapse for each number, which is its weight.
 
-numbers: an array with a row for each cell of the target and a column for each cell of the source, or the name of a .npy or CSV file, relative to that of the system; nan: no synapse.
+numbers: an array with a row for each cell of the target and a column for each cell of the source, a sparse matrix of SciPy, or the name of a .npy or CSV file, relative to that of the system; nan: no synapse.
 list: whether it has rows source, target, weight and perhaps delay instead; cells count from 0, row by row.)")
         .def_property_readonly(
             "kind", [](const PythonPattern& self) { return patterns[self.value.index()]; },

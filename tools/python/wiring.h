@@ -13,6 +13,9 @@ struct PythonPattern {
     friend bool operator==(const PythonPattern&, const PythonPattern&) = default;
 };
 
+/// The pattern of a table of weights.
+PythonPattern pattern_of_weights(const py::object& numbers, bool list);
+
 /// The kinds of connections, as in files.
 inline constexpr const char* connection_kinds[] = {"excitatory", "inhibitory", "modulatory", nullptr};
 

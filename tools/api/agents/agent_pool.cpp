@@ -8,6 +8,7 @@
 #include "core/base/cores.h"
 #include "core/engine/parallel/thread_pool.h"
 #include "core/run/argument_checks.h"
+#include "core/run/weights.h"
 
 namespace forage {
 namespace {
@@ -33,21 +34,51 @@ AgentPool::~AgentPool() = default;
 
 int AgentPool::threads() const { return threads_->threads(); }
 
-void AgentPool::reset(std::span<const std::uint64_t> seeds, std::span<const Pose2> starts,
-                      std::span<float> observations) {
-    if (!starts.empty() && starts.size() != runs_.size())
-        throw InputError(
-            fmt::format("there are {} start poses for {} environments", starts.size(), runs_.size()));
+namespace {
+
+void check_count(std::size_t given, std::size_t runs, const char* what) {
+    if (given > 0 && given != runs)
+        throw InputError(fmt::format("there are {} {} for {} environments", given, what, runs));
+}
+
+}  // namespace
+
+void AgentPool::reset(std::span<const std::optional<std::uint64_t>> seeds, std::span<const Pose2> starts,
+                      std::span<const bool> mask, std::span<float> observations) {
+    check_count(seeds.size(), size(), "seeds"), check_count(starts.size(), size(), "start poses");
+    check_count(mask.size(), size(), "elements in the mask");
     for (const Pose2& start : starts) check_pose(start.x, start.y, start.yaw);
     const auto width = runs_.front().observation(0).size();
     auto work = [&](int item, int) {
         const auto i = static_cast<std::size_t>(item);
-        runs_[i].reset(seeds.empty() ? std::nullopt : std::optional(seeds[i]),
-                       starts.empty() ? starts : starts.subspan(i, 1));
+        if (mask.empty() || mask[i])
+            runs_[i].reset(seeds.empty() ? std::nullopt : seeds[i],
+                           starts.empty() ? starts : starts.subspan(i, 1));
         std::ranges::copy(runs_[i].observation(0),
                           observations.begin() + static_cast<std::ptrdiff_t>(i * width));
     };
     threads_->run(static_cast<int>(runs_.size()), work);
+}
+
+void AgentPool::set(std::span<const std::string> assignments) {
+    check_count(assignments.size(), size(), "values");
+    for (std::size_t i = 0; i < assignments.size(); ++i) runs_[i].run()->check(assignments[i]);
+    for (std::size_t i = 0; i < assignments.size(); ++i) runs_[i].set(assignments[i]);
+}
+
+void AgentPool::set_weights(const std::string& connection, std::span<const double> weights) {
+    const int number = find_connection(*runs_.front().run(), connection);
+    const auto& layout = runs_.front().run()->layout();
+    const auto& c = layout.connections[static_cast<std::size_t>(number)];
+    const auto cells = [&](int g) {
+        return static_cast<std::size_t>(layout.groups[static_cast<std::size_t>(g)].shape.cells);
+    };
+    const std::size_t one = cells(c.source) * cells(c.target);
+    const auto of = [&](std::size_t i) {
+        return weights.size() == one * size() ? weights.subspan(i * one, one) : weights;
+    };
+    for (std::size_t i = 0; i < size(); ++i) check_weights(*runs_[i].run(), number, of(i));
+    for (std::size_t i = 0; i < size(); ++i) runs_[i].set_weights(connection, of(i));
 }
 
 void AgentPool::step(std::span<const double> actions, const Rows& rows) {

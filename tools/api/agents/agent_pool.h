@@ -3,7 +3,9 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "tools/api/agents/agents.h"
@@ -35,10 +37,16 @@ class AgentPool {
     int threads() const;
     AgentRun& operator[](std::size_t i) { return runs_[i]; }
 
-    /// Begins an episode of all runs; with seeds, one per run, they are opened again. `starts` is empty or
-    /// has the start pose of each robot. Throws InputError.
-    void reset(std::span<const std::uint64_t> seeds, std::span<const Pose2> starts,
-               std::span<float> observations);
+    /// Begins an episode of the runs that `mask` names, of all when it is empty; those that `seeds` has a
+    /// seed for are restarted. `starts` is empty or has the start pose of each robot. Writes the observations
+    /// of all runs. Throws InputError.
+    void reset(std::span<const std::optional<std::uint64_t>> seeds, std::span<const Pose2> starts,
+               std::span<const bool> mask, std::span<float> observations);
+    /// Sets a parameter of each run, as AgentRun::set() does. Throws InputError, and changes nothing.
+    void set(std::span<const std::string> assignments);
+    /// Sets the weights of a connection of each run: one matrix after the other, or one for all. Throws
+    /// InputError, and changes nothing.
+    void set_weights(const std::string& connection, std::span<const double> weights);
     /// Runs one step of each run. `actions` has a row per run. Throws InputError before the first run steps,
     /// and engine::RunError; of several runs that fail, that of the first one.
     void step(std::span<const double> actions, const Rows& rows);

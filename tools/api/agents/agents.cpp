@@ -8,6 +8,7 @@
 #include "bug_interface/simulation/world_queries.h"
 #include "bug_interface/world/sdf_reader.h"
 #include "core/run/argument_checks.h"
+#include "core/run/weights.h"
 #include "tools/plot/film.h"
 
 namespace forage {
@@ -163,6 +164,20 @@ void AgentRun::open(Run run) {
     throw_errors(diagnostics);
     run_->add(std::make_unique<Driver>(motors_));
     run_->start();
+    for (const auto& [parameter, assignment] : assignments_) run_->set(assignment);
+    for (const auto& [connection, weights] : weights_)
+        forage::set_weights(*run_, check_weights(*run_, connection, weights));
+}
+
+void AgentRun::set(const std::string& assignment) {
+    run_->set(assignment);
+    assignments_[assignment.substr(0, assignment.find('='))] = assignment;
+}
+
+void AgentRun::set_weights(const std::string& name, std::span<const double> weights) {
+    const int connection = find_connection(*run_, name);
+    forage::set_weights(*run_, check_weights(*run_, connection, weights));
+    weights_[connection].assign(weights.begin(), weights.end());
 }
 
 AgentRun::State AgentRun::bind(const Agent& agent, Diagnostics& diagnostics) {

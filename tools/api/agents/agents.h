@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -99,6 +100,11 @@ class AgentRun {
     /// agent, and for poses that are out of bounds, where something is, or where a trial ends at once; the
     /// next reset() begins an episode.
     void reset(std::optional<std::uint64_t> seed = {}, std::span<const Pose2> starts = {});
+    /// Sets a parameter, "Process/Group.threshold=0.5", in this run and in those that reset() restarts.
+    /// Throws InputError.
+    void set(const std::string& assignment);
+    /// Does the same with the weights of a connection: a row per target cell (core/run/weights.h).
+    void set_weights(const std::string& connection, std::span<const double> weights);
     /// Sets the action of an agent until the next one. Throws InputError for numbers that ActionKind does not
     /// name.
     void act(std::size_t agent, std::span<const double> action);
@@ -146,7 +152,9 @@ class AgentRun {
     void sense(State& agent);
 
     std::shared_ptr<const AgentTask> task_;
-    std::shared_ptr<std::vector<Motor>> motors_;  ///< of all agents; the run's observer reads them
+    std::map<std::string, std::string> assignments_;  ///< of set(), by parameter
+    std::map<int, std::vector<double>> weights_;      ///< of set_weights(), by connection
+    std::shared_ptr<std::vector<Motor>> motors_;      ///< of all agents; the run's observer reads them
     std::shared_ptr<Run> run_;
     bug::World* world_ = nullptr;
     std::unique_ptr<plot::Film> film_;  ///< of the world; made by picture()

@@ -10,7 +10,7 @@
 
 from . import _forage
 from ._errors import Diagnostic, InputError, InputWarning, RunError
-from ._forage import Arborization, DistanceFunction, Film, Group, Manipulation, Parameters, Pattern, Probe, Run, System, edit_file, open, resume
+from ._forage import Arborization, Connection, DistanceFunction, Film, Group, Manipulation, Parameters, Pattern, Probe, Run, System, edit_file, open, resume
 from ._picture import Picture
 from ._recording import Recording
 
@@ -40,6 +40,7 @@ _TYPES = (
 __all__ = [
     "Arborization",
     "Cells",
+    "Connection",
     "Diagnostic",
     "DistanceFunction",
     "Film",

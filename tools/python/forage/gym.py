@@ -102,14 +102,33 @@ def _action_space(motors: typing.Any, action: typing.Any) -> typing.Any:
     return spaces.Box(numpy.array(low, numpy.float32), numpy.ones(len(low), numpy.float32), dtype=numpy.float32)
 
 
-def _start(options: typing.Any) -> typing.Any:
-    """The option of reset(); None without it."""
+def _assignment(name: str, value: typing.Any) -> str:
+    if isinstance(value, (bool, numpy.bool_)):
+        value = str(bool(value)).lower()
+    elif not isinstance(value, (str, int, float, numpy.number)):
+        raise InputError(f"set(): {name} cannot be {value!r}: give a number, a text, True or False")
+    return f"{name}={value}"
+
+
+def _each(name: typing.Any, values: typing.Any) -> typing.Any:
+    """The names and values of set(), which are two arguments or a dictionary."""
+    if isinstance(name, dict):
+        if values is not None:
+            raise InputError("set(): give a dictionary, or a name and its values")
+        return name.items()
+    if not isinstance(name, str) or values is None:
+        raise InputError("set(): give a name and its values, or a dictionary of them")
+    return [(name, values)]
+
+
+def _option(options: typing.Any, *known: str) -> list[typing.Any]:
+    """The options of reset() with these names; None for those that are not given."""
     if not (options is None or isinstance(options, dict)):
         raise InputError(f"reset(): the options {options!r} are no dictionary, such as {{'start': (0, -1, 1.57)}}")
-    unknown = set(options or {}) - {"start"}
+    unknown = set(options or {}) - set(known)
     if unknown:
-        raise InputError(f"reset(): unknown options {', '.join(sorted(map(str, unknown)))}; there is start")
-    return (options or {}).get("start")
+        raise InputError(f"reset(): unknown options {', '.join(sorted(map(str, unknown)))}; there is {' and '.join(known)}")
+    return [(options or {}).get(name) for name in known]
 
 
 def _pose(start: typing.Any) -> typing.Any:
@@ -121,7 +140,7 @@ def _pose(start: typing.Any) -> typing.Any:
 
 def _starts(options: typing.Any, robots: typing.Any) -> typing.Any:
     """The start poses in the options of reset(): "start" is one of them, or a dictionary by robot."""
-    start = _start(options)
+    (start,) = _option(options, "start")
     if start is None:
         return []
     if not isinstance(start, dict):
@@ -156,6 +175,18 @@ class _Rendered:
         Only what the agents sense, the reward and the modules depend on is computed in it.
         """
         return self._use.run
+
+    def set(self, name: typing.Any, values: typing.Any = None) -> None:
+        """Sets a parameter, env.set("Process/Group.threshold", 0.5), or the weights of a connection, env.set("A to B", weights).
+
+        A dictionary sets several, one after the other. Weights are an array of shape (targets, sources), as run["A to B"].weight is. They hold until
+        they are set again, also after reset(seed=...). Raises InputError, and leaves the value as it was.
+        """
+        for what, value in _each(name, values):
+            if self._use.is_connection(what):
+                self._use.set_weights(what, value)
+            else:
+                self._use.set_parameter(_assignment(what, value))
 
     def render(self) -> typing.Any:
         """The world from above, and what cameras see: an array of shape (height, width, 3) of bytes, or a window ("human").
@@ -402,18 +433,40 @@ class BugVectorEnv(VectorEnv):  # type: ignore[misc]
         return self._pool
 
     def reset(self, *, seed: typing.Any = None, options: typing.Any = None) -> typing.Any:
-        """Begins an episode everywhere. `seed` is a number for environment 0, or one number per environment.
+        """Begins an episode everywhere. `seed` is a number for environment 0, or one number or None per environment.
 
-        options={"start": (x, y, yaw)} places all robots there; an array with a row per environment places each of them. It
-        raises InputError as BugEnv.reset() does; some of the environments may have begun an episode then.
+        options={"start": (x, y, yaw)} places all robots there; an array with a row per environment places each of them. With {"reset_mask": [True,
+        False, ...]} only some environments begin an episode. Raises InputError as BugEnv.reset() does; some of the environments may have begun an
+        episode then.
         """
-        seeds = [] if seed is None else [operator.index(seed) + i for i in range(self.num_envs)] if numpy.ndim(seed) == 0 else [operator.index(s) for s in seed]
-        if seeds and len(seeds) != self.num_envs:
-            raise InputError(f"{len(seeds)} seeds for {self.num_envs} environments")
-        start = _start(options)
-        starts = [] if start is None else [_pose(s) for s in start] if numpy.ndim(start) == 2 else [_pose(start)] * self.num_envs
+        count = self.num_envs
+        several = [s if s is None else operator.index(s) for s in ([] if seed is None else [seed] if numpy.ndim(seed) == 0 else seed)]
+        seeds = [several[0] + i for i in range(count)] if numpy.ndim(seed) == 0 and seed is not None else several
+        if seeds and len(seeds) != count:
+            raise InputError(f"{len(seeds)} seeds for {count} environments")
+        start, mask = _option(options, "start", "reset_mask")
+        starts = [] if start is None else [_pose(s) for s in start] if numpy.ndim(start) == 2 else [_pose(start)] * count
+        chosen = numpy.ones(count, bool) if mask is None else numpy.asarray(mask)
+        if chosen.dtype != bool or chosen.shape != (count,):
+            raise InputError(f"reset(): the reset_mask {mask!r} is not {count} times True or False")
         super().reset(seed=seeds[0] if seeds else None)
-        return self._use.reset(seeds, starts), {"reached_target": numpy.zeros(self.num_envs, bool)}
+        observations = self._use.reset(seeds, starts, chosen)
+        return observations, {"reached_target": numpy.zeros(count, bool), "_reached_target": chosen}
+
+    def set(self, name: typing.Any, values: typing.Any = None) -> None:
+        """Sets a parameter or the weights of a connection everywhere, as BugEnv.set() does: one value for all environments, or one for each.
+
+        env.set("Process/Group.threshold", numpy.linspace(0, 1, env.num_envs)) and env.set("A to B", weights) with weights of shape (targets, sources) or
+        (num_envs, targets, sources). Raises InputError, and leaves the values as they were.
+        """
+        for what, value in _each(name, values):
+            if self._use.is_connection(what):
+                self._use.set_weights(what, value)
+                continue
+            each = list(value) if isinstance(value, (list, tuple)) or getattr(value, "ndim", 0) else [value] * self.num_envs
+            if len(each) != self.num_envs:
+                raise InputError(f"set(): {len(each)} values of {what} for {self.num_envs} environments")
+            self._use.set_parameters([_assignment(what, v) for v in each])
 
     def step(self, actions: typing.Any) -> typing.Any:
         """Runs a step everywhere. All parts of what it returns have one row per environment.
@@ -421,7 +474,7 @@ class BugVectorEnv(VectorEnv):  # type: ignore[misc]
         Raises InputError, before any environment steps, for an action that is not in the action space.
         """
         observations, rewards, terminated, truncated, reached = self._use.step(actions)
-        return observations, rewards, terminated, truncated, {"reached_target": reached}
+        return observations, rewards, terminated, truncated, {"reached_target": reached, "_reached_target": numpy.ones(self.num_envs, bool)}
 
     def close_extras(self, **options: typing.Any) -> None:
         self._pool = None
