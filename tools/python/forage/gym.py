@@ -440,8 +440,11 @@ class BugVectorEnv(VectorEnv):  # type: ignore[misc]
         episode then.
         """
         count = self.num_envs
-        several = [s if s is None else operator.index(s) for s in ([] if seed is None else [seed] if numpy.ndim(seed) == 0 else seed)]
-        seeds = [several[0] + i for i in range(count)] if numpy.ndim(seed) == 0 and seed is not None else several
+        seeds: list[int | None] = []
+        if seed is not None and numpy.ndim(seed) == 0:
+            seeds = [operator.index(seed) + i for i in range(count)]
+        elif seed is not None:
+            seeds = [None if s is None else operator.index(s) for s in seed]
         if seeds and len(seeds) != count:
             raise InputError(f"{len(seeds)} seeds for {count} environments")
         start, mask = _option(options, "start", "reset_mask")
@@ -463,7 +466,7 @@ class BugVectorEnv(VectorEnv):  # type: ignore[misc]
             if self._use.is_connection(what):
                 self._use.set_weights(what, value)
                 continue
-            each = list(value) if isinstance(value, (list, tuple)) or getattr(value, "ndim", 0) else [value] * self.num_envs
+            each = list(value) if isinstance(value, (list, tuple)) or numpy.ndim(value) else [value] * self.num_envs
             if len(each) != self.num_envs:
                 raise InputError(f"set(): {len(each)} values of {what} for {self.num_envs} environments")
             self._use.set_parameters([_assignment(what, v) for v in each])
