@@ -57,18 +57,19 @@ Run opened(const model::System& system, std::uint64_t seed) {
 }  // namespace
 
 TEST_CASE("A restarted run has the bits of a new one") {
-    const auto [system, world] =
-        GENERATE(table<std::string, std::string>({{"reactive_foraging.iqr", "basic_arena"},
-                                                  {"dac_foraging.iqr", "ambiguous_arena"},
-                                                  {"learners_foraging.iqr", "basic_arena"},
-                                                  {"sec_maze.iqr", "double_t_maze"},
-                                                  {"q_maze.iqr", "double_t_maze"},
-                                                  {"allostasis.iqr", "desert"},
-                                                  {"team_a.iqr", "team_arena"},
-                                                  {"cookbook/two_robots.iqr", "two_bugs"},
-                                                  {"cookbook/noise.iqr", ""},
-                                                  {"cookbook/hebbian_association.iqr", ""},
-                                                  {"cookbook/working_memory.iqr", ""}}));
+    const auto files = GENERATE(table<std::string, std::string>({{"reactive_foraging.iqr", "basic_arena"},
+                                                                 {"dac_foraging.iqr", "ambiguous_arena"},
+                                                                 {"learners_foraging.iqr", "basic_arena"},
+                                                                 {"sec_maze.iqr", "double_t_maze"},
+                                                                 {"q_maze.iqr", "double_t_maze"},
+                                                                 {"allostasis.iqr", "desert"},
+                                                                 {"team_a.iqr", "team_arena"},
+                                                                 {"cookbook/two_robots.iqr", "two_bugs"},
+                                                                 {"cookbook/noise.iqr", ""},
+                                                                 {"cookbook/hebbian_association.iqr", ""},
+                                                                 {"cookbook/working_memory.iqr", ""}}));
+    const auto& system = std::get<0>(files);  // clang 14 cannot capture bindings
+    const auto& world = std::get<1>(files);
     CAPTURE(system);
     check_restarts([&](std::uint64_t seed) {
         return open(shipped(system),
