@@ -89,7 +89,7 @@ def test_lengths_that_no_run_has_are_errors(length):
         forage.sweep(SMALL, seeds=1, **length)
 
 
-@pytest.mark.parametrize("number", [float("nan"), float("inf"), None, [float("nan")] * 4])
+@pytest.mark.parametrize("number", [float("nan"), float("inf"), [float("nan")] * 4])
 def test_numbers_that_are_not_finite_are_errors(number):
     with forage.open(SMALL) as run:
         group = run[run.groups[0]]
@@ -97,7 +97,7 @@ def test_numbers_that_are_not_finite_are_errors(number):
             with pytest.raises(forage.InputError, match="finite"):
                 change(number)
         assert not run.manipulations
-        with pytest.raises(ValueError, match="could not convert"):
+        with pytest.raises(ValueError, match="a number or an array of numbers"):
             group.set("word")
 
 
