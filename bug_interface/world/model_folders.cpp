@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "bug_interface/world/sdf_format.h"
+#include "core/base/installation.h"
 #include "core/base/number.h"
 #include "core/base/separated.h"
 #include "core/base/text_file.h"
@@ -82,6 +83,10 @@ ModelFolders::ModelFolders(const std::string& world_file, const std::vector<std:
         std::istringstream in(list ? list : "");
         for (std::string entry; std::getline(in, entry, ':');)
             if (!entry.empty()) folders_.push_back(entry);
+    }
+    try {
+        folders_.push_back((installation() / "share/forage/systems/worlds/models").string());
+    } catch (const fs::filesystem_error&) {  // not known where /proc is not mounted
     }
 }
 

@@ -13,7 +13,7 @@ namespace forage::bug {
 
 /// The folders in which `model://NAME` is looked up, in this order: `extra`; `models` beside the world file
 /// and in the two folders above it; and those listed in FORAGE_MODEL_PATH and GAZEBO_MODEL_PATH (separated by
-/// colons).
+/// colons), and that of the models that come with Forage.
 class ModelFolders {
   public:
     ModelFolders(const std::string& world_file, const std::vector<std::string>& extra);

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "core/base/installation.h"
 #include "core/base/print.h"
 #include "core/run/input_error.h"
 #include "tools/forage/commands.h"
-#include "tools/forage/installation.h"
 
 namespace forage::tool {
 

@@ -3,9 +3,9 @@
 
 #include <unistd.h>
 
+#include "core/base/installation.h"
 #include "core/base/print.h"
 #include "tools/forage/commands.h"
-#include "tools/forage/installation.h"
 
 namespace forage::tool {
 

@@ -6,11 +6,11 @@
 #include <filesystem>
 #include <vector>
 
+#include "core/base/installation.h"
 #include "core/base/print.h"
 #include "core/model/lookup.h"
 #include "tools/api/experiment/results.h"
 #include "tools/forage/commands.h"
-#include "tools/forage/installation.h"
 
 namespace forage::tool {
 namespace {

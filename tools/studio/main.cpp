@@ -10,9 +10,9 @@
 #include <spawn.h>
 #include <unistd.h>
 
+#include "core/base/installation.h"
 #include "core/base/print.h"
 #include "core/run/input_error.h"
-#include "tools/forage/installation.h"
 #include "tools/forage/options.h"
 #include "tools/forage/stop.h"
 #include "tools/studio/server/recovery.h"

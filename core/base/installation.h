@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-namespace forage::tool {
+namespace forage {
 
 /// The folder of the installation, or the build tree, that the running program is in: the one above bin/.
 /// Throws std::filesystem::filesystem_error where /proc is not mounted.
@@ -11,4 +11,4 @@ inline std::filesystem::path installation() {
     return std::filesystem::read_symlink("/proc/self/exe").parent_path().parent_path();
 }
 
-}  // namespace forage::tool
+}  // namespace forage
