@@ -66,10 +66,11 @@ Document Document::unsaved(std::string path, std::string text, bool lenient) {
     return out;
 }
 
-Document Document::create(const std::string& name) {
+Document Document::create(const std::string& name, const std::string& content) {
     model::System system;
     system.id = "system", system.name = name;
-    Document out = unsaved({}, xml::write_system(system));
+    Document out = unsaved({}, content.empty() ? xml::write_system(system) : content);
+    if (!content.empty()) out.edit([&](model::System& copy) { copy.name = name; });
     out.saved_ = out.text_;  // there is nothing to lose
     return out;
 }

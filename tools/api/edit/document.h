@@ -39,8 +39,9 @@ class Document {
     /// A text that has not been saved, of a file that `path` names, or of none when it is empty. Throws
     /// InputError.
     static Document unsaved(std::string path, std::string text, bool lenient = false);
-    /// A system without content, which has no file yet.
-    static Document create(const std::string& name);
+    /// A system without content, or with that of a text under another name; it has no file yet. Throws
+    /// InputError.
+    static Document create(const std::string& name, const std::string& content = {});
 
     const std::string& path() const { return path_; }  ///< empty before the first save
     const std::string& text() const { return text_; }

@@ -16,6 +16,8 @@
 #include "core/xml/writer.h"
 #include "tools/api/edit/forms.h"
 #include "tools/api/edit/part_operations.h"
+#include "tools/api/edit/robots.h"
+#include "tools/api/edit/wiring.h"
 
 namespace forage::editing {
 
@@ -83,8 +85,16 @@ struct SystemEdit {
                                                 text("synapse"), text("id"));
         if (const auto name = text("name"); !name.empty()) model::rename(system, made, name);
         model::set_line(system, made, line_change());
+        if (const auto how = text("wiring"); !how.empty()) wire(*find_connection(system, made), how);
         return made;
     }
+    void wire(Connection& c, const std::string& how) {
+        const auto *source = find_group(system, c.source), *target = find_group(system, c.target);
+        if (!source || !target)
+            throw InputError("the connection leads from or to a group that does not exist");
+        c.pattern = wiring_pattern(how, source->topology, target->topology), c.arborization = {};
+    }
+    json wiring() { return wire(editable_connection(system, id()), text("wiring")), nullptr; }
     CommentChange comment_change() const {
         CommentChange out;
         if (const auto* v = member("text")) out.text = v->get<std::string>();
@@ -148,6 +158,14 @@ struct SystemEdit {
         std::optional<std::string> written;
         if (value) written = value->is_string() ? value->get<std::string>() : value->dump();
         return set_parameter(system, id(), text("name"), written), nullptr;
+    }
+    json add_robot() {
+        const auto made = editing::add_robot(system, registry, text("name"), text("id"));
+        place_new(made);
+        return made;
+    }
+    json port_groups() {
+        return add_port_groups(system, registry, id(), o.at("ports").get<std::vector<std::string>>());
     }
     json topology() { return editable_group(system, id()).topology = topology_from(o), nullptr; }
     json pattern() {
@@ -252,12 +270,19 @@ const std::vector<Operation<SystemEdit>>& system_operations() {
               optional("neuron", text(), "neuronLinearThreshold"),
               made},
              &SystemEdit::add_group},
+            {"add_robot",
+             "Adds a process for a robot of the world, with groups that drive it and that receive its "
+             "proximity "
+             "and its light sensors.",
+             {{"name", text(), "of the robot"}, placed("x"), placed("y"), made},
+             &SystemEdit::add_robot},
             {"add_connection", "Adds a connection.",
              with({{"source", text()},
                    {"target", text()},
                    optional("kind", kind, "excitatory"),
                    optional("synapse", text(), "synapseFixedWeight"),
                    optional("name", text(), ""),
+                   optional("wiring", text(), "", "as of `wiring`; by default that of the file format"),
                    made},
                   line),
              &SystemEdit::add_connection},
@@ -320,6 +345,14 @@ const std::vector<Operation<SystemEdit>>& system_operations() {
                R"(`source` and `target`; `{"form": "tuples", "tuples": [{"source": [[x, y]], "target": )"
                R"([[x, y]]}]}`; or `{"form": "weights", "file": "w.npy"}` with `list` and `text`)"}},
              &SystemEdit::pattern},
+            {"wiring",
+             "Sets which cells a connection joins, in plain words; its arborization becomes the default.",
+             {id,
+              {"wiring", text(),
+               "`one to one`: the k-th cells of both groups; `all to all`; `nearest`: cells at the same "
+               "relative places; `fitting`: `one to one` between groups of one shape, else `all to all`, or "
+               "`nearest` for more than a million pairs"}},
+             &SystemEdit::wiring},
             {"arborization",
              "Sets the arborization of a connection.",
              {id,
@@ -335,6 +368,12 @@ const std::vector<Operation<SystemEdit>>& system_operations() {
              "Sets the delay of a connection.",
              {id, {"delay", any(), "as an arborization"}},
              &SystemEdit::delay},
+            {"port_groups",
+             "Adds groups of the sizes that ports of the module of a process need, and leads the ports to "
+             "them. "
+             "Returns their ids.",
+             {id, {"ports", list(text())}},
+             &SystemEdit::port_groups},
             {"ports",
              "Leads ports of the module of a process to groups.",
              {id, optional("inputs", any(), nullptr, R"(`{"port": "id of a group"}`)"),

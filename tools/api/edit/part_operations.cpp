@@ -6,8 +6,10 @@
 
 #include <fmt/format.h>
 
+#include "core/base/text_file.h"
 #include "core/model/build.h"
 #include "core/model/edit.h"
+#include "core/model/lookup.h"
 #include "core/model/names.h"
 #include "core/model/parts.h"
 #include "core/run/input_error.h"
@@ -125,6 +127,35 @@ std::vector<PartSummary> parts_in(const std::string& folder) {
         out.push_back(std::move(part));
     }
     std::ranges::sort(out, {}, &PartSummary::name);
+    return out;
+}
+
+std::vector<TemplateSummary> templates_in(const std::string& folder) {
+    std::vector<TemplateSummary> out;
+    std::error_code failed;
+    for (const auto& entry : fs::directory_iterator(folder, failed)) {
+        std::error_code ignored;
+        if (entry.path().extension() != ".iqr" || !entry.is_regular_file(ignored)) continue;
+        const std::string path = entry.path().string(), text = read_file(path);
+        Diagnostics diagnostics;
+        const auto system = xml::parse_system(path, text, diagnostics);
+        const auto needs_file = [](const model::Connection& c) {
+            const auto* weights = std::get_if<model::Weights>(&c.pattern);
+            return weights && !weights->file.empty();
+        };
+        if (!system || diagnostics.failed() ||
+            std::ranges::any_of(system->processes, &model::Process::linked) ||
+            std::ranges::any_of(system->connections, needs_file))
+            continue;
+        TemplateSummary summary{path, std::string(model::trim(system->name)), {}, 0};
+        if (const auto begin = text.find("<!--"), end = text.find("-->"); end != text.npos && begin < end)
+            summary.about = first_sentence(text.substr(begin + 4, end - begin - 4));
+        summary.robots = std::size_t(std::ranges::count_if(system->processes, [](const model::Process& p) {
+            return p.module && p.module->type == "moduleGazeboBug";
+        }));
+        out.push_back(std::move(summary));
+    }
+    std::ranges::sort(out, {}, &TemplateSummary::name);
     return out;
 }
 

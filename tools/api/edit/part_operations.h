@@ -29,4 +29,13 @@ struct PartSummary {
 /// The parts in a folder, by their names. Files that cannot be read are left out.
 std::vector<PartSummary> parts_in(const std::string& folder);
 
+/// A system from which a new one may begin.
+struct TemplateSummary {
+    std::string file, name;
+    std::string about;       ///< the first sentence of the comment above the system
+    std::size_t robots = 0;  ///< processes with a module for a robot
+};
+/// The systems in a folder that need no other file, by their names.
+std::vector<TemplateSummary> templates_in(const std::string& folder);
+
 }  // namespace forage::editing
