@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "tools/api/edit/robots.h"
 #include "tools/studio/server/problems.h"
 
 namespace forage::studio {
@@ -41,7 +42,13 @@ json problems_of(const std::vector<Document::Problem>& problems, const model::Sy
         row["item"] = p.item.empty() ? json(nullptr) : json(p.item);
         if (const auto& port = p.diagnostic.port; !port.empty()) {
             row["port"] = port;
-            if (is_unset(p.item, port, system, registry)) row["unset"] = true;
+            if (is_unset(p.item, port, system, registry)) {
+                row["unset"] = true;
+                const auto process = std::ranges::find(system.processes, p.item, &model::Process::id);
+                if (process != system.processes.end())
+                    if (const auto size = editing::size_at_port(*process, registry, port))
+                        row["size"] = {size->width, size->height};
+            }
         }
         if (!p.diagnostic.parameter.empty()) row["parameter"] = p.diagnostic.parameter;
         out.push_back(std::move(row));

@@ -101,6 +101,7 @@ class Session {
 
     void read_plot_config(const Run& run);  ///< throws InputError
     void save();                            ///< into the folder of states; notes what goes wrong
+    void note_use() const;                  ///< among the latest files, with its world and its seed
     void restart_autosave();                ///< under the name that the system has now
     void look_for_killed();
     struct Killed;

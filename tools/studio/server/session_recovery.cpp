@@ -56,9 +56,14 @@ Changes changes_of(const json& text) {
 
 void Session::keep() {
     recovery.files.emplace(edited.input.system);
-    if (!edited.document->path().empty()) note_recent(edited.document->path());
+    note_use();
     look_for_killed();
     recovery.version = live.version;  // there is nothing to lose yet
+}
+
+void Session::note_use() const {
+    if (recovery.files && !edited.document->path().empty())
+        note_recent({edited.document->path(), edited.input.world, edited.input.seed});
 }
 
 void Session::restart_autosave() {

@@ -3,8 +3,10 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "core/base/output_files.h"
+#include "core/base/text_file.h"
 #include "core/model/build.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
@@ -43,7 +45,9 @@ json read_document(Session& s, const Request&) {
 json open_new_system(Session& s, const Request& r) {
     RunInput input = s.edited.input;
     input.more.clear(), input.settings.clear(), input.robots.clear(), input.replay.clear();
-    const Document made = Document::create(r.text("name"));
+    const auto from = r.text("from");
+    const Document made = from.empty() ? Document::create(r.text("name"))
+                                       : Document::create(r.text("name"), read_file(shipped_path(s, from)));
     input.text = made.text();
     input.system = "untitled.iqr";
     input.world = r.text("world"), input.world_text.clear();
@@ -76,7 +80,7 @@ json save_document(Session& s, const Request& r) {
     if (s.edited.wanted) s.edited.wanted->system = document.path();
     s.edited.outside = false;
     if (s.edited.current) s.edited.built = document.system();
-    note_recent(document.path());
+    note_recent({document.path(), s.edited.input.world, s.edited.input.seed});
     if (s.recovery.files && document.path() != before) s.restart_autosave(), s.recovery.version.reset();
     s.log({.command = "save",
            .title = (to == before ? "save " : "save as ") + fs::path(to).filename().string(),
@@ -142,8 +146,18 @@ json change_settings(Session& s, const Request& r) {
     return {{"save_interval", s.recovery.settings.save_interval}};
 }
 
+/// The folder of a file when a page may write there, else the working directory.
+fs::path user_folder(const Session& s, const std::string& file) {
+    const auto parent = fs::path(file).parent_path();
+    const fs::path folder = parent.empty() ? "." : parent;
+    return s.comes_with_forage(file) || access(folder.c_str(), W_OK) != 0 ? "." : folder;
+}
+
 json list_files(Session& s, const Request& r) {
-    const fs::path here = r.text("folder").empty() ? system_folder(s) : fs::path(r.text("folder"));
+    const auto beside = r.text("beside");
+    const fs::path here = r.text("folder").empty()
+                              ? user_folder(s, beside.empty() ? s.edited.input.system : beside)
+                              : fs::path(r.text("folder"));
     std::error_code failed;
     const fs::path where = fs::canonical(here, failed);
     if (failed || !fs::is_directory(where))
@@ -174,6 +188,13 @@ json list_files(Session& s, const Request& r) {
             {"backups", std::move(dated)}};
 }
 
+json list_recent(Session&, const Request&) {
+    json out = json::array();
+    for (const auto& used : recent_files())
+        out.push_back({{"file", used.file}, {"world", used.world}, {"seed", used.seed}});
+    return {{"files", std::move(out)}};
+}
+
 }  // namespace
 
 void refuse_shipped(const Session& s, const std::string& path) {
@@ -197,8 +218,10 @@ std::vector<Command> document_commands() {
              return {{"text", s.edited.document->difference()}};
          }},
         {.name = "new",
-         .doc = "Opens a system without content and without a file.",
-         .arguments = {{"name", text()}, optional("world", path(), "")},
+         .doc = "Opens a system without a file, and without content or with that of a template.",
+         .arguments = {{"name", text()},
+                       optional("world", path(), ""),
+                       optional("from", path(), "", "a template, as `shipped` lists it")},
          .changes_run = true,
          .apply = open_new_system},
         {.name = "backup",
@@ -233,11 +256,10 @@ std::vector<Command> document_commands() {
          .result = file,
          .apply = export_process_file},
         {.name = "recent",
-         .doc = "Lists the last files, at most twenty, from `$XDG_STATE_HOME/forage/recent`.",
-         .result = "{ files: string[] }",
-         .apply = [](Session&, const Request&) -> json {
-             return {{"files", recent_files()}};
-         }},
+         .doc = "Lists the last systems, at most twenty, from `$XDG_STATE_HOME/forage/recent`, each with the "
+                "world and the seed that it had.",
+         .result = "{ files: RecentFile[] }",
+         .apply = list_recent},
         {.name = "settings",
          .doc = "Changes and returns the settings in `$XDG_STATE_HOME/forage/settings.json`, for the studios "
                 "that "
@@ -247,7 +269,10 @@ std::vector<Command> document_commands() {
          .apply = change_settings},
         {.name = "files",
          .doc = "Lists systems, worlds and what is beside them, and backups, the latest of a system first.",
-         .arguments = {optional("folder", path(), "", "by default that of the system")},
+         .arguments = {optional(
+                           "folder", path(), "",
+                           "by default that of `beside` when it may be written, else the working directory"),
+                       optional("beside", path(), "", "a file; by default that of the system")},
          .result = "FilesResult",
          .apply = list_files},
     };

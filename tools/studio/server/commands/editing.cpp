@@ -10,6 +10,7 @@
 #include "tools/api/edit/forms.h"
 #include "tools/api/edit/operations.h"
 #include "tools/api/edit/part_operations.h"
+#include "tools/api/edit/wiring.h"
 #include "tools/studio/server/commands/shared.h"
 #include "tools/studio/server/page_paths.h"
 #include "tools/studio/server/problems.h"
@@ -122,7 +123,10 @@ struct Description {
                     {"states", json::array()},
                     {"parameters", json::array()}};
         const model::GroupIndex groups(system);
-        if (const auto* g = groups.find(c.target).group)
+        const auto *source = groups.find(c.source).group, *target = groups.find(c.target).group;
+        out["wiring"] =
+            source && target ? editing::wiring_of(c, source->topology, target->topology) : "advanced";
+        if (const auto* g = target)
             if (const auto* type = registry.neuron(g->neuron.type))
                 for (const auto& s : type->states) out["states"].push_back(s.name);
         if (!c.synapse) return out;

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <ranges>
 
 #include <fmt/format.h>
 #include <forage/system.h>
@@ -76,7 +77,7 @@ json list_synapses(Session& s, const Request& r) {
 
 json list_trials(Session& s, const Request& r) {
     json out = json::array();
-    for (const Trial& t : world_of(s.run()).trials(find_robot(s, r))) {
+    for (const Trial& t : world_of(s.run()).trials(find_robot(s, r)) | std::views::drop(r.whole("from"))) {
         json row = {{"number", t.number},
                     {"seconds", static_cast<double>(t.cycles) * s.run().seconds_per_cycle()},
                     {"first_cycle", t.first_cycle},
@@ -128,7 +129,9 @@ std::vector<Command> looking_commands() {
          .apply = list_synapses},
         {.name = "trials",
          .doc = "Lists the finished trials; lengths in m, angles in rad.",
-         .arguments = {optional("robot", text(), "", "by default the first")},
+         .arguments = {optional("robot", text(), "", "by default the first"),
+                       optional("from", whole(0, 1'000'000'000), 0,
+                                "how many are left out at the beginning")},
          .result = "{ trials: Trial[] }",
          .apply = list_trials},
     };

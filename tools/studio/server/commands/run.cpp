@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "tools/api/edit/part_operations.h"
 #include "tools/studio/server/commands/shared.h"
 #include "tools/studio/server/page_paths.h"
+#include "tools/studio/server/recent.h"
 
 namespace forage::studio {
 namespace {
@@ -63,6 +65,7 @@ void reset_with(Session& s, RunInput input) {
         s.edited.input = before;
         throw;
     }
+    s.note_use();
 }
 
 json restart_run(Session& s, const Request& r) {
@@ -94,6 +97,8 @@ json open_system(Session& s, const Request& r) {
     input.system = path(r.text("system")), input.world = path(r.text("world"));
     check_readable(input.system, {FileKind::system, FileKind::process});
     check_readable(input.world, {FileKind::world});
+    const auto before = last_use(input.system);
+    input.seed = before ? before->seed : RunInput{}.seed;
     s.open_document(input);
     return json::object();
 }
@@ -132,7 +137,21 @@ json list_shipped(Session& s, const Request&) {
         for (const auto& entry : fs::directory_iterator(fs::path(s.shipped()) / "worlds", failed))
             if (entry.path().extension() == ".world") worlds.push_back(entry.path().string());
     std::ranges::sort(worlds);
-    return {{"worlds", worlds}};
+    json templates = json::array();
+    for (const bool recipe : {false, true}) {
+        const auto folder = fs::path(s.shipped()) / (recipe ? "cookbook" : "templates");
+        for (const auto& t : editing::templates_in(folder.string())) {
+            // A recipe with a robot was made for the arena with a light.
+            const char* arena = t.robots > 1 ? "two_bugs" : recipe ? "basic_arena" : "open_arena";
+            const auto world = fs::path(s.shipped()) / "worlds" / fmt::format("{}.world", arena);
+            templates.push_back({{"file", fs::path(t.file).lexically_relative(s.shipped()).string()},
+                                 {"name", t.name},
+                                 {"about", t.about},
+                                 {"recipe", recipe},
+                                 {"world", t.robots ? world.string() : ""}});
+        }
+    }
+    return {{"worlds", worlds}, {"templates", std::move(templates)}};
 }
 
 json quit_program(Session& s, const Request&) {
@@ -177,7 +196,7 @@ std::vector<Command> run_commands() {
                        optional("value", number(0, 1e9), 1, "of `times` and `cycles`")},
          .apply = set_speed},
         {.name = "open",
-         .doc = "Opens another system.",
+         .doc = "Opens another system, with the seed that it had last, or 1.",
          .arguments = {{"system", path()},
                        optional("world", path(), ""),
                        optional("shipped", boolean(), false,
@@ -191,8 +210,8 @@ std::vector<Command> run_commands() {
          .changes_run = true,
          .apply = open_world},
         {.name = "shipped",
-         .doc = "Lists the worlds that come with Forage.",
-         .result = "{ worlds: string[] }",
+         .doc = "Lists the worlds that come with Forage, and the systems from which a new one may begin.",
+         .result = "{ worlds: string[]; templates: Template[] }",
          .apply = list_shipped},
         {.name = "quit", .doc = "Ends the program.", .apply = quit_program},
     };

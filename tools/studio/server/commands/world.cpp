@@ -111,6 +111,7 @@ json save_world(Session& s, const Request& r) {
         s.edited.input = before;
         throw;
     }
+    s.note_use();
     const auto name = std::filesystem::path(file).filename().string();
     s.log({.command = "world_save",
            .title = "save " + name + " and restart in it",
@@ -150,6 +151,7 @@ json describe_world_text(Session& s) {
     return {{"type", "world_document"},
             {"file", world.path},
             {"dirty", world.text != world.saved},
+            {"shipped", s.comes_with_forage(world.path)},
             {"items", std::move(items)}};
 }
 

@@ -621,11 +621,72 @@ TEST_CASE("a new system is built from nothing, saved under a name, and opened ag
     const auto file = (e.folder / "new.iqr").string();
     e.result({{"command", "save"}, {"file", file}});
     CHECK(e.last["document"]["file"] == file);
-    CHECK(e.result({{"command", "recent"}})["files"][0] == fs::canonical(file).string());
+    CHECK(e.result({{"command", "recent"}})["files"][0]["file"] == fs::canonical(file).string());
     e.result({{"command", "open"}, {"system", file}});
     CHECK(e.last["system"]["connections"].size() == 1);
+    CHECK(e.last["status"]["seed"] == 1);
+    e.result({{"command", "restart"}, {"seed", 7}});
+    e.result({{"command", "save"}});
+    CHECK(e.result({{"command", "recent"}})["files"][0]["seed"] == 7);
+    e.result({{"command", "open"}, {"system", e.file}});
+    e.result({{"command", "open"}, {"system", file}});
+    CHECK(e.session->run().seed() == 7);  // a system has its own seed
     const auto listed = e.result({{"command", "files"}, {"folder", e.folder.string()}})["files"];
     CHECK(std::ranges::count(listed, "new.iqr") == 1);
+}
+
+TEST_CASE("a connection is wired by plain words, and says by which") {
+    Editor e("reactive_foraging.iqr");
+    const auto p = e.edit({{{"do", "add_process"}, {"name", "P"}}})[0];
+    const auto group = [&](const char* name, int width, int height) {
+        return e.edit(
+            {{{"do", "add_group"}, {"process", p}, {"name", name}, {"width", width}, {"height", height}}})[0];
+    };
+    const auto row = group("Row", 32, 1), square = group("Square", 9, 9), one = group("One", 1, 1),
+               other = group("Other", 32, 1);
+    const auto connect = [&](const json& from, const json& to) {
+        return e.edit(
+            {{{"do", "add_connection"}, {"source", from}, {"target", to}, {"wiring", "fitting"}}})[0];
+    };
+    const auto item = [&](const json& id) { return e.result({{"command", "item"}, {"item", id}}); };
+    CHECK(item(connect(row, other))["wiring"] == "one to one");
+    CHECK(item(connect(row, one))["synapses"] == 32);
+    const auto c = connect(row, square);
+    CHECK(item(c)["wiring"] == "all to all");
+    CHECK(item(c)["synapses"] == 32 * 81);
+    for (const char* wiring : {"nearest", "one to one"}) {
+        e.edit({{{"do", "wiring"}, {"id", c}, {"wiring", wiring}}});
+        CHECK(item(c)["wiring"] == wiring);
+    }
+    CHECK(item(c)["synapses"] == 32);
+    e.edit({{{"do", "wiring"}, {"id", c}, {"wiring", "nearest"}}});
+    const auto pairs = e.result({{"command", "preview"}, {"connection", c}});
+    for (const auto& [side, cells] : {std::pair("source", 32u), std::pair("target", 81u)}) {
+        const auto used = pairs[side].get<std::vector<int>>();
+        CHECK(std::set<int>(used.begin(), used.end()).size() == cells);  // none is left out
+    }
+    CHECK(e.ask({{"command", "edit"},
+                 {"operations", {{{"do", "wiring"}, {"id", c}, {"wiring", "some"}}}}})["ok"] == false);
+}
+
+TEST_CASE("a robot is one step, and a port gets a group of the size that it needs") {
+    Editor e("reactive_foraging.iqr");
+    e.result({{"command", "new"},
+              {"name", "Mine"},
+              {"world", FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world"}});
+    const auto robot = e.edit({{{"do", "add_robot"}, {"name", "Bug"}}})[0];
+    CHECK(e.last["document"]["problems"] == json::array());
+    const auto groups = e.last["system"]["processes"][0]["groups"];
+    REQUIRE(groups.size() == 3);
+    CHECK(groups[0]["width"] == 9);
+    CHECK(groups[1]["width"] == 32);
+    e.edit({{{"do", "remove"}, {"ids", {groups[0]["id"]}}}});
+    CHECK(e.last["document"]["problems"][0]["size"] == json({9, 9}));
+    e.edit({{{"do", "port_groups"}, {"id", robot}, {"ports", {"_motor"}}}});
+    CHECK(e.last["document"]["problems"] == json::array());
+    CHECK(e.ask({{"command", "edit"},
+                 {"operations", {{{"do", "port_groups"}, {"id", robot}, {"ports", {"_motor"}}}}}})["ok"] ==
+          false);
 }
 
 TEST_CASE("a backup is listed under its file, opened, and not written") {

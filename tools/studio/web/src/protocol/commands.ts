@@ -1,5 +1,5 @@
 // The commands of the server. Made by tests/unit/tools/studio/server/protocol_test.cpp from tools/studio/server/commands.
-import type { DocumentMessage, Driven, EditItem, FilesResult, ItemParameters, LayoutContent, PanelRow, PartSummary, PreviewResult, Problem, SynapseTable, Trial, TypesResult, Vocabulary, WorldDocument, WorldKind } from './messages';
+import type { DocumentMessage, Driven, EditItem, FilesResult, ItemParameters, LayoutContent, PanelRow, PartSummary, PreviewResult, Problem, RecentFile, SynapseTable, Template, Trial, TypesResult, Vocabulary, WorldDocument, WorldKind } from './messages';
 
 export interface Commands {
   /** Starts the run. */
@@ -37,7 +37,7 @@ export interface Commands {
     arguments: { mode: 'real' | 'times' | 'cycles' | 'free'; value?: number | null };
     result: {};
   };
-  /** Opens another system. */
+  /** Opens another system, with the seed that it had last, or 1. */
   open: {
     arguments: { system: string; world?: string | null; shipped?: boolean | null; generation?: number | null };
     result: {};
@@ -47,10 +47,10 @@ export interface Commands {
     arguments: { world: string; generation?: number | null };
     result: { world: string };
   };
-  /** Lists the worlds that come with Forage. */
+  /** Lists the worlds that come with Forage, and the systems from which a new one may begin. */
   shipped: {
     arguments: {};
-    result: { worlds: string[] };
+    result: { worlds: string[]; templates: Template[] };
   };
   /** Ends the program. */
   quit: {
@@ -84,7 +84,7 @@ export interface Commands {
   };
   /** Lists the finished trials; lengths in m, angles in rad. */
   trials: {
-    arguments: { robot?: string | null };
+    arguments: { robot?: string | null; from?: number | null };
     result: { trials: Trial[] };
   };
   /** Describes the parameters of an item. */
@@ -297,9 +297,9 @@ export interface Commands {
     arguments: {};
     result: { text: string };
   };
-  /** Opens a system without content and without a file. */
+  /** Opens a system without a file, and without content or with that of a template. */
   new: {
-    arguments: { name: string; world?: string | null; generation?: number | null };
+    arguments: { name: string; world?: string | null; from?: string | null; generation?: number | null };
     result: {};
   };
   /** Writes the text as it is now into a file beside the system whose name ends with date and time: `dac.iqr,2026-11-26_05-14-17`. A backup that is open gives another one of the same system. */
@@ -327,10 +327,10 @@ export interface Commands {
     arguments: { process: string; file: string; overwrite?: boolean | null };
     result: { file: string };
   };
-  /** Lists the last files, at most twenty, from `$XDG_STATE_HOME/forage/recent`. */
+  /** Lists the last systems, at most twenty, from `$XDG_STATE_HOME/forage/recent`, each with the world and the seed that it had. */
   recent: {
     arguments: {};
-    result: { files: string[] };
+    result: { files: RecentFile[] };
   };
   /** Changes and returns the settings in `$XDG_STATE_HOME/forage/settings.json`, for the studios that start from now on. */
   settings: {
@@ -339,7 +339,7 @@ export interface Commands {
   };
   /** Lists systems, worlds and what is beside them, and backups, the latest of a system first. */
   files: {
-    arguments: { folder?: string | null };
+    arguments: { folder?: string | null; beside?: string | null };
     result: FilesResult;
   };
   /** Returns the message `world_document`. */
@@ -367,7 +367,8 @@ export interface Commands {
 export type Operation =
   | { do: 'add_process'; name: string; x?: number | null; y?: number | null; id?: string | null }
   | { do: 'add_group'; process: string; name: string; x?: number | null; y?: number | null; width?: number | null; height?: number | null; neuron?: string | null; id?: string | null }
-  | { do: 'add_connection'; source: string; target: string; kind?: 'excitatory' | 'inhibitory' | 'modulatory' | null; synapse?: string | null; name?: string | null; id?: string | null; source_anchor?: number | null; target_anchor?: number | null; vertices?: number[][] | null; source_vertices?: number[][] | null; target_vertices?: number[][] | null }
+  | { do: 'add_robot'; name: string; x?: number | null; y?: number | null; id?: string | null }
+  | { do: 'add_connection'; source: string; target: string; kind?: 'excitatory' | 'inhibitory' | 'modulatory' | null; synapse?: string | null; name?: string | null; wiring?: string | null; id?: string | null; source_anchor?: number | null; target_anchor?: number | null; vertices?: number[][] | null; source_vertices?: number[][] | null; target_vertices?: number[][] | null }
   | { do: 'add_comment'; process?: string | null; id?: string | null; text?: string | null; x?: number | null; y?: number | null; width?: number | null; height?: number | null; color?: string | null }
   | { do: 'comment'; id: string; text?: string | null; x?: number | null; y?: number | null; width?: number | null; height?: number | null; color?: string | null }
   | { do: 'phantom'; process: string; group: string; x: number; y: number }
@@ -381,9 +382,11 @@ export type Operation =
   | { do: 'parameter'; id: string; name: string; value?: unknown | null }
   | { do: 'topology'; id: string; width?: number | null; height?: number | null; wrap_x?: boolean | null; wrap_y?: boolean | null; points?: number[][] | null }
   | { do: 'pattern'; id: string; pattern: unknown }
+  | { do: 'wiring'; id: string; wiring: string }
   | { do: 'arborization'; id: string; arborization: unknown }
   | { do: 'attenuation'; id: string; attenuation: unknown }
   | { do: 'delay'; id: string; delay: unknown }
+  | { do: 'port_groups'; id: string; ports: string[] }
   | { do: 'ports'; id: string; inputs?: unknown | null; outputs?: unknown | null }
   | { do: 'paste'; text: string; process?: string | null; x: number; y: number }
   | { do: 'import'; file: string }

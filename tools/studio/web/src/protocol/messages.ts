@@ -218,8 +218,8 @@ export type ItemParameters = { item: string; id: string; kind: string; type: str
 
 // ---- editing ----
 
-/** `port`, `parameter`: the field of the item that it is about; `unset`: the port is required, and leads nowhere. */
-export type DocumentProblem = Problem & { item?: string | null; port?: string; parameter?: string; unset?: boolean };
+/** `port`, `parameter`: the field of the item that it is about; `unset`: the port is required, and leads nowhere; `size`: that of the group it needs. */
+export type DocumentProblem = Problem & { item?: string | null; port?: string; parameter?: string; unset?: boolean; size?: [number, number] };
 
 /** The document as it is now. The server sends it after each change. */
 export interface DocumentMessage {
@@ -275,6 +275,8 @@ export interface ConnectionItem extends Common {
   source: string;
   target: string;
   sign: ConnectionKind;
+  /** Which cells it joins, in plain words. */
+  wiring: string;
   synapse: string;
   declaration: Declaration | null;
   pattern: Pattern | null;
@@ -316,6 +318,10 @@ export type TypesResult = { neurons: TypeInfo[]; synapses: TypeInfo[]; modules: 
 export type PreviewResult = { synapses: number; pairs: number; source: number[]; target: number[] };
 /** A backup of a system; `time` is local. */
 export type BackupFile = { file: string; system: string; time: string };
+/** A system from which a new one may begin: one of the templates, or a recipe of the cookbook. `world` is the one for it, empty for none. */
+export type Template = { file: string; name: string; about: string; recipe: boolean; world: string };
+/** A system of the last ones; its world is empty for none. */
+export type RecentFile = { file: string; world: string; seed: number };
 /** `backups`: the latest of a system first. */
 export type FilesResult = { folder: string; parent?: string | null; folders: string[]; files: string[]; backups: BackupFile[] };
 
@@ -327,7 +333,7 @@ export type WorldProperty = { name: string; label: string; kind: 'text' | 'numbe
 export type WorldItem = { id: string; name: string; kind: string; placed: boolean; unpacks: boolean; x: number; y: number; z: number; yaw: number; parts: WorldPart[]; properties: WorldProperty[] };
 export type WorldKind = { kind: string; title: string };
 /** The items of the world's file. The server sends it after each change of it. */
-export type WorldDocument = { type: 'world_document'; file: string; dirty: boolean; items: WorldItem[] };
+export type WorldDocument = { type: 'world_document'; file: string; dirty: boolean; shipped: boolean; items: WorldItem[] };
 
 /** A cell's partners: rows of the same index are one synapse. */
 export type SynapseTable = { total: number; source: number[]; target: number[]; distance: number[]; delay: number[]; strength: number[] };
