@@ -1,5 +1,5 @@
 // Layouts that the studio brings: each is a list of panels with places, filled in where the system has the groups.
-import { dock } from './stores/dock.svelte';
+import { dock, tutorialWidth } from './stores/dock.svelte';
 import { frame } from './stores/frame.svelte';
 import { model } from './stores/model.svelte';
 import { actions } from './stores/actions.svelte';
@@ -36,7 +36,7 @@ export function openTutorial(): void {
   // It takes the place of the tree, and on a middling window that of the inspector.
   frame.tree = false;
   if (innerWidth < 1500) frame.inspector = false;
-  dock.open(tutorial, frame.small ? { direction: 'below' } : { direction: 'left', width: tutorialWidth() });
+  dock.open(tutorial, frame.small ? { direction: 'below' } : { direction: 'left', width: tutorialWidth(dock.api?.width ?? 0) });
 }
 /** Opens the tutorial, or closes it when it is seen. */
 export function toggleTutorial(): void {
@@ -45,8 +45,6 @@ export function toggleTutorial(): void {
   tutorial = { ...(shown.params as PanelState) };
   dock.api!.removePanel(shown);
 }
-const tutorialWidth = () => Math.round(Math.min(440, Math.max(300, (dock.api?.width ?? 0) * 0.36)));
-
 const kindOf = (panel: { params?: unknown }) => (panel.params as PanelState).kind;
 
 /** Closes the panels that show a part of the system. */
@@ -77,14 +75,17 @@ export function arrange(plots: PanelState[]): void {
   const kept = clear();
   const first: PanelState = model.world ? { kind: 'arena' } : { kind: 'diagram' };
   const arena = dock.open(first, kept ? { beside: kept.id, direction: frame.small ? 'above' : 'right' } : {})!;
-  if (frame.small) {
-    if (model.world) dock.open({ kind: 'diagram' }, { beside: arena, inactive: true });
-    for (const p of plots) dock.open(p, { beside: arena, inactive: true });
+  if (frame.room !== 'wide') {
+    const others: PanelState[] = frame.small && model.world ? [{ kind: 'diagram' }, ...plots] : [...plots, ...(model.world ? [{ kind: 'diagram' }] : [])];
+    let stack = frame.small ? arena : null;
+    for (const p of others) stack = dock.open(p, stack ? { beside: stack, inactive: true } : { beside: arena, direction: 'below', height: Math.round(api.height * 0.48) });
+    api.getPanel(arena)?.api.setActive();
+    if (!frame.small) kept?.api.setSize({ width: tutorialWidth(api.width) });
     return;
   }
   // Many plots stand in two columns: below each other they would be too low to be read.
   const columns = plots.length > 3 ? 2 : 1;
-  const room = api.width - (kept ? tutorialWidth() : 0);
+  const room = api.width - (kept ? tutorialWidth(api.width) : 0);
   const width = Math.max(220, Math.round(room * (columns > 1 ? 0.48 : kept ? 0.4 : 0.3)));
   const opened: string[] = [];
   for (const p of plots) {
@@ -93,7 +94,7 @@ export function arrange(plots: PanelState[]): void {
   }
   if (model.world) dock.open({ kind: 'diagram' }, { beside: arena, direction: 'below', height: Math.round(api.height * 0.52) });
   api.getPanel(arena)?.api.setActive();
-  kept?.api.setSize({ width: tutorialWidth() });
+  kept?.api.setSize({ width: tutorialWidth(api.width) });
   for (const id of opened.slice(0, columns)) api.getPanel(id)?.api.setSize({ width: width / columns });
 }
 
@@ -102,7 +103,7 @@ export function applyLayout(content: LayoutContent | null | undefined): boolean 
   for (const p of content?.problems ?? []) actions.notify('error', problemText(p));
   if (content?.dock) {
     dock.api?.fromJSON(content.dock as never);
-    if (frame.small) dock.stack();
+    if (frame.room !== 'wide') dock.gather(frame.room);
   } else if (content?.plots?.length) arrange(content.plots);
   return !!content?.dock || !!content?.plots?.length;
 }

@@ -37,18 +37,22 @@ const connection = new Connection(socketUrl, token, {
 export const streams = new Streams(
   connection.request.bind(connection),
   // A group that was just drawn has no activity until the system can run.
-  (source, error) => run.link === 'open' && editing.message?.running_is_current !== false && actions.notify('error', `${source}: ${error.message}`),
+  (source, error) => run.link === 'open' && editing.message?.running_is_current !== false && actions.notify('error', `${source}: ${error.message}`, { cause: 'stream' }),
 );
 
-/** Sends a command; the caller handles an error. */
-export const request = <C extends CommandName>(name: C, ...given: Arguments<C>): Promise<Result<C>> => connection.request(name, ...given);
+/** Sends a command; the caller handles an error. Messages about an earlier failure of the command go when it succeeds. */
+export async function request<C extends CommandName>(name: C, ...given: Arguments<C>): Promise<Result<C>> {
+  const result = await connection.request(name, ...given);
+  actions.settle(name);
+  return result;
+}
 
 /** Sends a command. Shows the server's message and resolves with undefined when it is rejected. */
 export async function command<C extends CommandName>(name: C, ...given: Arguments<C>): Promise<Result<C> | undefined> {
   try {
     return await request(name, ...given);
   } catch (error) {
-    actions.notify('error', (error as Error).message);
+    actions.notify('error', (error as Error).message, { cause: name });
     return undefined;
   }
 }
@@ -59,7 +63,7 @@ async function moveInHistory(name: 'undo' | 'redo'): Promise<void> {
     await request(name);
   } catch (error) {
     const nothing = error instanceof CommandError && error.reason === 'nothing';
-    actions.notify(nothing ? 'info' : 'error', (error as Error).message);
+    actions.notify(nothing ? 'info' : 'error', (error as Error).message, { cause: name });
   }
 }
 
@@ -81,7 +85,7 @@ function receive(message: ServerMessage): void {
       const before = model.system, other = before?.opened !== message.opened;
       model.system = message;
       if (other) {
-        actions.beginSystem();
+        actions.settle();
         // A similar system keeps the panels. Those of missing items close without a message, as Undo does not restore them.
         if (before && alike(before, message)) dock.follow(nameChanges(before, message));
         dock.forget();
@@ -96,6 +100,7 @@ function receive(message: ServerMessage): void {
       break;
     }
     case 'document':
+      actions.settle('removal');
       editing.message = message;
       if (!editing.types) void request('types').then((t) => (editing.types = t), () => {});
       break;
@@ -108,7 +113,7 @@ function receive(message: ServerMessage): void {
       break;
     case 'status':
       // A change may have added sources that the server rejected before.
-      if (run.status?.generation !== message.generation) streams.retry();
+      if (run.status?.generation !== message.generation) actions.settle('stream'), streams.retry();
       run.status = message;
       break;
     case 'action': {

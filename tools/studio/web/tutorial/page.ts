@@ -52,7 +52,7 @@ function setupHtml(setup: Setup, number: number): string {
   const choices = setup.choices.map(
     (c) =>
       `<div class="choices" role="group" aria-label="${escape(c.assignment)}"><span>${escape(c.assignment)}</span> ${
-        c.values.map((v) => `<button type="button" class="outlined" data-set="${escape(`${c.assignment}=${v}`)}" aria-label="${escape(`${c.assignment} = ${v}`)}">${escape(v)}</button>`).join('')
+        c.values.map((v) => `<button type="button" class="outlined" data-set="${escape(`${c.assignment}=${v}`)}" aria-label="${escape(`${c.assignment} = ${v}`)}" disabled>${escape(v)}</button>`).join('')
       }</div>`,
   );
   return `<section class="setup" data-setup="${number}" aria-label="Set-up ${number + 1}"><button type="button" class="primary" data-open="${number}">Set it up</button><small>${escape(setup.system)} in ${escape(setup.world)}</small><p>${
@@ -89,7 +89,7 @@ export function makePage(id: string, markdown: string, ids: string[]): TutorialP
         const name = /^pictures\/([\w.-]+)$/.exec(href)?.[1];
         if (!name) throw new Error(`${id}: '${href}' is not a picture of the tutorial`);
         page.pictures.push(name);
-        return `<img src="picture:${name}" alt="${escape(text)}" loading="lazy">`;
+        return `<button type="button" class="picture" title="Enlarge"><img src="picture:${name}" alt="${escape(text)}" loading="lazy"></button>`;
       },
       link({ href, tokens }) {
         const text = this.parser.parseInline(tokens);

@@ -1,12 +1,13 @@
 // New, open, save and the others: what they do, and which dialog is open.
-import type { FilesResult } from '../protocol/messages';
+import type { FilesResult, RecentFile, Template } from '../protocol/messages';
 import { actions } from '../stores/actions.svelte';
 import { dock } from '../stores/dock.svelte';
 import { model } from '../stores/model.svelte';
 import { run } from '../stores/run.svelte';
 import { command, request } from '../studio';
 import { CommandError } from '../connection';
-import { baseName, editing, folderOf, sendAll } from './document.svelte';
+import { baseName, editing, sendAll } from './document.svelte';
+import { leaving } from './leaving.svelte';
 import { attempt } from './operations';
 import { worldFile } from './world.svelte';
 
@@ -21,7 +22,8 @@ interface FileTask {
   /** Added to a name that is none of these files. */
   ending?: string;
   name?: string;
-  folder?: string;
+  /** The file whose folder is listed first, when it may be written; by default the system. */
+  beside?: string;
   act(file: string, overwrite: boolean): Promise<unknown>;
 }
 
@@ -36,7 +38,6 @@ const tasks: Record<FileAction, (process: string) => FileTask> = {
     files: /\.(iqr|xml)$/,
     ending: '.iqr',
     name: baseName(editing.backupOf ?? editing.file) || `${model.system?.name || 'system'}.iqr`,
-    folder: editing.shipped ? '.' : '', // a system that comes with Forage is saved where the studio was started
     act: async (file, overwrite) => {
       await sendAll();
       saved(await request('save', { file, overwrite }));
@@ -59,20 +60,18 @@ const tasks: Record<FileAction, (process: string) => FileTask> = {
       files: /\.iqrprocess$/i,
       ending: '.iqrProcess',
       name: `${name}.iqrProcess`,
-      folder: editing.shipped ? '.' : '',
       act: async (file, overwrite) => {
         await attempt({ do: 'make_part', id, file, overwrite });
         actions.notify('info', `${name} uses ${baseName(file)} now.`);
       },
     };
   },
-  new: () => ({ title: 'New system', verb: 'Create', files: /\.world$/, act: () => request('new', { name: fileDialog.name.trim() || 'New system', world: fileDialog.world.trim() }) }),
-  // A world finds its models from its own folder.
+  new: () => ({ title: 'New system', verb: 'Create', files: /\.world$/, act: () => request('new', { name: fileDialog.name.trim() || 'New system', world: fileDialog.world.trim(), from: fileDialog.template }) }),
   world: () => ({
     title: 'Another world',
     verb: 'Open',
     files: /\.world$/,
-    folder: folderOf(world()),
+    beside: world(),
     act: async (file) => {
       await request('world_open', { world: file });
       actions.notify('info', `The run restarts in ${baseName(file)}.`);
@@ -83,7 +82,7 @@ const tasks: Record<FileAction, (process: string) => FileTask> = {
     verb: 'Save',
     ending: '.world',
     name: baseName(world()),
-    folder: folderOf(world()),
+    beside: world(),
     act: async (file, overwrite) => saved(await request('world_save', { file, overwrite })),
   }),
 };
@@ -93,12 +92,15 @@ class FileDialog {
   task = $state.raw<FileTask | null>(null);
   /** Null for the task of a panel. */
   action = $state<FileAction | null>(null);
+  /** What a new system may begin with, and the one that is chosen; empty for none. */
+  templates = $state.raw<Template[]>([]);
+  template = $state('');
   /** Worlds that come with Forage. */
   shipped = $state.raw<string[]>([]);
   listing = $state.raw<FilesResult | null>(null);
   /** The listing that is on its way: a name is one of its folder, not of the one that was shown before. */
   private listed: Promise<void> = Promise.resolve();
-  recent = $state.raw<string[]>([]);
+  recent = $state.raw<RecentFile[]>([]);
   name = $state('');
   /** The world of a system that is opened or begun; empty for none. */
   world = $state('');
@@ -109,7 +111,7 @@ class FileDialog {
   open(action: FileAction, process: string | null = null): void {
     this.world = model.world?.file ?? '';
     this.choose(tasks[action](process ?? ''), action);
-    if (action === 'open' || action === 'new' || action === 'world') void request('shipped').then((r) => (this.shipped = r.worlds), () => {});
+    if (action === 'open' || action === 'new' || action === 'world') void request('shipped').then((r) => ((this.shipped = r.worlds), (this.templates = r.templates)), () => {});
     if (action === 'open') void request('recent').then((r) => (this.recent = r.files), () => {});
   }
   /** Opens the dialog for a file of a panel. */
@@ -118,17 +120,18 @@ class FileDialog {
     this.action = action;
     this.error = this.taken = '';
     this.name = task.name ?? '';
-    void this.list(task.folder ?? (!action && editing.shipped ? '.' : ''));
+    this.template = '';
+    void this.list('', task.beside);
   }
   close(): void {
     this.task = this.action = null;
   }
-  list(folder: string): Promise<void> {
-    return (this.listed = this.read(folder));
+  list(folder: string, beside = ''): Promise<void> {
+    return (this.listed = this.read(folder, beside));
   }
-  private async read(folder: string): Promise<void> {
+  private async read(folder: string, beside: string): Promise<void> {
     try {
-      this.listing = await request('files', { folder });
+      this.listing = await request('files', { folder, beside });
       this.error = '';
     } catch (e) {
       this.error = (e as Error).message;
@@ -138,10 +141,19 @@ class FileDialog {
   lists(file: string): boolean {
     return this.task?.files?.test(file) ?? file.endsWith(this.task?.ending ?? '');
   }
-  /** Takes a file of the list: for a system that is opened or begun, a world is the one of the other field. */
+  /** Begins a new system with a template, in its world and with its name. */
+  begin(file: string): void {
+    const before = this.templates.find((t) => t.file === this.template), next = this.templates.find((t) => t.file === file);
+    if (this.name === '' || this.name === before?.name) this.name = next?.name ?? '';
+    if (next?.world) this.world = next.world;
+    this.template = file;
+  }
+  /** Takes a file of the list: for a system that is opened or begun, a world is the one of the other field. A system brings its own world. */
   take(file: string): void {
     if (file.endsWith('.world') && (this.action === 'open' || this.action === 'new')) this.world = this.path(file);
     else this.name = file;
+    const used = this.action === 'open' ? this.recent.find((r) => r.file === this.path(file)) : undefined;
+    if (used) this.world = used.world;
   }
   takes(file: string): boolean {
     return this.name === file || (file.endsWith('.world') && this.action !== 'world' && this.world === this.path(file));
@@ -176,18 +188,23 @@ export const unsaved = () => editing.dirty || worldFile.dirty;
 
 const unsavedText = () => (editing.dirty && worldFile.dirty ? 'The system and its world have' : editing.dirty ? 'The system has' : 'The world has');
 
-/** Whether the present system and world may be left: they are saved, or the user agrees to lose what changed. */
-export function mayLeave(): boolean {
-  return !unsaved() || confirm(`${unsavedText()} changes that are not saved. Leave them?`);
+/** Saves what changed. Returns whether all is saved: a system without a file of its own asks for its name first. */
+async function saveAll(): Promise<boolean> {
+  if (worldFile.dirty && !(await saveWorld())) return false;
+  if (editing.dirty) await save();
+  return !unsaved();
 }
 
+/** Whether the present system and world may be left: they are saved, or the user agrees to lose what changed. */
+export const mayLeave = async (): Promise<boolean> => !unsaved() || leaving.ask({ title: 'Changes', text: `${unsavedText()} changes that are not saved.`, verb: 'Discard them', save: saveAll });
+
 /** Whether the present world may be left. */
-export const mayLeaveWorld = (): boolean => !worldFile.dirty || confirm('The world has changes that are not saved. Leave them?');
+export const mayLeaveWorld = async (): Promise<boolean> => !worldFile.dirty || leaving.ask({ title: 'Changes', text: 'The world has changes that are not saved.', verb: 'Discard them', save: saveWorld });
 
 /** Ends the program, and with it the run, for all pages. */
 export async function quit(): Promise<void> {
-  const what = unsaved() ? `${unsavedText()} changes that are not saved. End Forage all the same?` : 'End Forage? The run ends with it.';
-  if (!confirm(what)) return;
+  const changed = unsaved();
+  if (!(await leaving.ask({ title: 'Quit', text: changed ? `${unsavedText()} changes that are not saved.` : 'The run ends with the program.', verb: changed ? 'Quit without saving' : 'Quit', ...(changed ? { save: saveAll } : {}) }))) return;
   run.ended = run.link === 'open'; // before the server goes
   try {
     await request('quit');
@@ -223,8 +240,12 @@ export async function backup(): Promise<void> {
   if (done) actions.notify('info', `The backup is ${baseName(done.file)}.`);
 }
 
-export async function saveWorld(): Promise<void> {
-  if (await command('world_save')) actions.notify('info', 'The world is saved; the run restarts in it.');
+/** Returns whether it is saved. A world that comes with Forage asks for another name first. */
+export async function saveWorld(): Promise<boolean> {
+  if (worldFile.document?.shipped) return fileDialog.open('save the world'), false;
+  if (!(await command('world_save'))) return false;
+  actions.notify('info', 'The world is saved; the run restarts in it.');
+  return true;
 }
 
 /** What the key saves: the world while its panel is the active one, else the system. */

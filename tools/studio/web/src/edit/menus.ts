@@ -1,9 +1,11 @@
 // The menus of items, the same in the diagram and in the tree.
 import type { PageLine } from '../panels/diagram';
 import type { Process } from '../protocol/messages';
+import { undo } from '../studio';
+import { actions } from '../stores/actions.svelte';
 import { dock } from '../stores/dock.svelte';
 import { frame } from '../stores/frame.svelte';
-import { model, weightStates } from '../stores/model.svelte';
+import { itemName, model, weightStates } from '../stores/model.svelte';
 import { selection } from '../stores/selection.svelte';
 import { copy, cut, withConnections } from './clipboard';
 import { fileDialog } from './file.svelte';
@@ -11,7 +13,14 @@ import { menu, type Entries } from './menu.svelte';
 import { edit } from './operations';
 import { tools } from './tool.svelte';
 
-export const removeItems = (ids: string[]) => edit({ do: 'remove', ids });
+/** Removes items, and says how many connections go with them. */
+export async function removeItems(ids: string[]): Promise<void> {
+  const gone = new Set(ids.flatMap((id) => [id, ...(model.processes.find((p) => p.id === id)?.groups.map((g) => g.id) ?? [])]));
+  const lost = model.connections.filter((c) => !gone.has(c.id) && (gone.has(c.source) || gone.has(c.target))).length;
+  const first = model.find(ids[0]!), name = ids.length === 1 && first ? itemName(first) : `${ids.length} items`;
+  if (!(await edit({ do: 'remove', ids })) || lost === 0) return;
+  actions.notify('info', `${name} and ${lost === 1 ? 'a connection' : `${lost} connections`} are deleted.`, { cause: 'removal', action: { label: 'Undo', act: undo } });
+}
 
 /** Opens the inspector on an item and puts the cursor into a field, or into its first one. */
 export function properties(id: string, field: string | null = null): void {

@@ -12,7 +12,8 @@ export async function attempt(operations: Operation | Operation[], title?: strin
 }
 
 /** The same, which shows what is wrong, and then resolves with undefined. */
-export const edit = (operations: Operation | Operation[], title?: string, merge?: string): Promise<(string | null)[] | undefined> => attempt(operations, title, merge).catch((error: Error) => void actions.notify('error', error.message));
+export const edit = (operations: Operation | Operation[], title?: string, merge?: string): Promise<(string | null)[] | undefined> =>
+  attempt(operations, title, merge).catch((error: Error) => void actions.notify('error', error.message, { cause: 'edit' }));
 
 /** Sets a parameter of items, in the document and in the run. */
 export function setParameter(ids: string[], p: ParameterInfo, value: ParameterValue): void {
@@ -32,5 +33,5 @@ export interface NewConnection {
 }
 
 export async function connect(c: NewConnection): Promise<string | null> {
-  return (await edit({ do: 'add_connection', ...c }))?.[0] ?? null;
+  return (await edit({ do: 'add_connection', wiring: 'fitting', ...c }))?.[0] ?? null;
 }

@@ -38,6 +38,7 @@ export const kinds: Record<string, PanelKind> = {
   raster: { title: (p) => `${group(p)} raster`, load: () => import('./Raster.svelte') },
   weights: { title: (p) => `${connection(p)} weights`, load: () => import('./Weights.svelte') },
   wiring: { title: (p) => `${connection(p)} wiring`, load: () => import('./Wiring.svelte') },
+  trials: { title: () => 'Trials', load: () => import('./Trials.svelte') },
   camera: { title: (p) => `Camera of ${p.item}`, load: () => import('./Camera.svelte') },
   manipulate: { title: (p) => `Drive ${group(p)}`, load: () => import('./Manipulate.svelte') },
   sampler: { title: () => 'Record to a file', load: () => import('./Sampler.svelte') },

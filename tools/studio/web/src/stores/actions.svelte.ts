@@ -1,32 +1,34 @@
 // What was done, with the shell command and the Python that do the same; and messages for the user.
 import type { ActionMessage } from '../protocol/messages';
 
-type Notice = { key: number; kind: 'error' | 'info'; text: string };
+interface Notice {
+  key: number;
+  kind: 'error' | 'info';
+  text: string;
+  /** The message goes when this is settled. */
+  cause?: string;
+  /** A button in the message. */
+  action?: { label: string; act(): unknown };
+}
 
 class Actions {
-  log = $state.raw<(ActionMessage & { at: Date })[]>([]);
+  log = $state.raw<ActionMessage[]>([]);
   notices = $state.raw<Notice[]>([]);
-  private begun = $state.raw(new Date());
   private nextKey = 1;
 
   add(action: ActionMessage): void {
-    this.log = [...this.log.slice(-499), { ...action, at: new Date() }];
+    this.log = [...this.log.slice(-499), action];
   }
-  /** Marks that another system is open: earlier actions are not about it. */
-  beginSystem(): void {
-    this.begun = new Date();
-  }
-  /** The last action on the system that is open. */
-  get last(): ActionMessage | undefined {
-    const action = this.log[this.log.length - 1];
-    return action && action.at >= this.begun ? action : undefined;
-  }
-  /** Shows a message; an error stays until it is closed. */
-  notify(kind: Notice['kind'], text: string): void {
+  /** Shows a message; an error stays until it is closed, or its cause is settled. */
+  notify(kind: Notice['kind'], text: string, { cause, action }: Pick<Notice, 'cause' | 'action'> = {}): void {
     if (this.notices.some((n) => n.text === text)) return;
-    const notice = { key: this.nextKey++, kind, text };
+    const notice = { key: this.nextKey++, kind, text, cause, action };
     this.notices = [...this.notices.slice(-2), notice];
-    if (kind === 'info') setTimeout(() => this.dismiss(notice.key), Math.max(4000, 80 * text.length)); // time to read it
+    if (kind === 'info') setTimeout(() => this.dismiss(notice.key), Math.max(action ? 10000 : 4000, 80 * text.length)); // time to read it
+  }
+  /** Takes away the messages of a cause; without one, all errors. */
+  settle(cause?: string): void {
+    if (this.notices.some((n) => (cause === undefined ? n.kind === 'error' : n.cause === cause))) this.notices = this.notices.filter((n) => (cause === undefined ? n.kind !== 'error' : n.cause !== cause));
   }
   dismiss(key: number): void {
     this.notices = this.notices.filter((n) => n.key !== key);

@@ -2,11 +2,14 @@
 import type { DockviewApi, DockviewGroupPanel, SerializedDockview } from 'dockview-core';
 import { isPlot, kinds, type PanelState } from '../panels/registry';
 import { followed, type NameChanges } from './follow';
-import { frame } from './frame.svelte';
+import { frame, type Room } from './frame.svelte';
 
 type Direction = 'left' | 'right' | 'above' | 'below' | 'within';
 /** Beside a panel, or without one at an edge of all. */
 type Where = { beside?: string; direction?: Direction; width?: number; height?: number; floating?: boolean; inactive?: boolean };
+
+/** The width of the tutorial, of so much for all panels. */
+export const tutorialWidth = (all: number): number => Math.round(Math.min(440, Math.max(300, all * 0.36)));
 
 class Dock {
   api: DockviewApi | null = null;
@@ -64,20 +67,24 @@ class Dock {
     return this.open(panel, { beside: this.api?.panels.find((p) => (p.params as PanelState).kind === kind)?.id });
   }
 
-  /** Makes all panels tabs of one stack, as a small window has room for one. The tutorial stays below, as it is read beside another panel. */
-  stack(): void {
+  /** Arranges all panels for a window without room for columns: the arena above the tabs of all others, or tabs of one stack. The tutorial stays beside them, or below. */
+  gather(room: Exclude<Room, 'wide'>): void {
     const api = this.api;
     if (!api || api.totalPanels === 0) return;
-    this.wide = api.toJSON();
-    const active = api.activePanel;
-    const panels = [...api.panels], text = panels.filter((p) => p.params?.kind === 'tutorial');
-    const gather = (some: typeof panels, direction?: 'below') => {
-      if (some.length === 0) return;
+    const active = api.activePanel, panels = [...api.panels];
+    const kindOf = (p: (typeof panels)[number]) => (p.params as PanelState).kind;
+    const text = panels.filter((p) => kindOf(p) === 'tutorial'), others = panels.filter((p) => !text.includes(p));
+    const above = room === 'small' ? others : others.filter((p) => kindOf(p) === 'arena');
+    const put = (some: typeof panels, direction?: 'below' | 'left') => {
+      if (some.length === 0) return null;
       const group = api.addGroup(direction && { direction }) as DockviewGroupPanel;
-      for (const p of some) p.api.moveTo({ group, skipSetActive: p !== active });
+      for (const p of some) p.api.moveTo({ group, skipSetActive: p !== some[0] });
+      return group;
     };
-    gather(panels.filter((p) => !text.includes(p)));
-    gather(text, 'below');
+    put(above);
+    put(others.filter((p) => !above.includes(p)), 'below');
+    const beside = put(text, room === 'small' ? 'below' : 'left');
+    if (room === 'narrow') beside?.api.setSize({ width: tutorialWidth(api.width) });
     active?.api.setActive();
   }
 

@@ -1,12 +1,15 @@
 // How much room the window has, and which of the drawers beside the panels are open. Both follow its width.
-const narrow = matchMedia('(max-width: 1020px)');
+const narrow = matchMedia('(max-width: 1100px)');
 const small = matchMedia('(max-width: 720px)');
+
+export type Room = 'wide' | 'narrow' | 'small';
+const roomNow = (): Room => (small.matches ? 'small' : narrow.matches ? 'narrow' : 'wide');
 
 class Frame {
   tree = $state(!narrow.matches);
   inspector = $state(!narrow.matches);
-  /** Whether the window is too small for columns: the panels are tabs of one stack. */
-  small = $state(small.matches);
+  /** How panels are arranged: in columns; as the arena and one stack of tabs; or as tabs of one stack. */
+  room = $state(roomNow());
   /** The drawers of the window while it had room for them. */
   private wide = { tree: true, inspector: true };
 
@@ -17,7 +20,10 @@ class Frame {
       this.tree = !narrow.matches && this.wide.tree;
       this.inspector = !narrow.matches && this.wide.inspector;
     });
-    small.addEventListener('change', () => (this.small = small.matches));
+    for (const query of [narrow, small]) query.addEventListener('change', () => (this.room = roomNow()));
+  }
+  get small(): boolean {
+    return this.room === 'small';
   }
   /** Whether drawers lie over the panels when they are open. */
   get narrow(): boolean {

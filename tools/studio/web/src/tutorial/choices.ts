@@ -1,9 +1,12 @@
-// The buttons of values that one tries: the one with the value in force is pressed.
+// The buttons of values that one tries: they act once their exercise is set up, and the one with the value in force is pressed.
 import { request } from '../studio';
 
 /** Of the active set-up below `body`; others may be about another system. */
 export async function showChoices(body: HTMLElement): Promise<void> {
-  for (const button of body.querySelectorAll('.setup:not(.active) [aria-pressed]')) button.removeAttribute('aria-pressed');
+  for (const button of body.querySelectorAll<HTMLButtonElement>('[data-set]')) {
+    button.disabled = !button.closest('.setup.active');
+    if (button.disabled) button.removeAttribute('aria-pressed');
+  }
   for (const choices of body.querySelectorAll<HTMLElement>('.setup.active .choices')) {
     const assignment = choices.getAttribute('aria-label')!;
     const item = assignment.slice(0, assignment.lastIndexOf('.'));

@@ -1,7 +1,6 @@
 // What a button of the tutorial does: it opens a system of those that come with Forage, sets parameters, and arranges panels.
 import { arrange, closePlots } from '../presets';
 import type { PanelState } from '../panels/registry';
-import { actions } from '../stores/actions.svelte';
 import { dock } from '../stores/dock.svelte';
 import { model } from '../stores/model.svelte';
 import { run } from '../stores/run.svelte';
@@ -65,7 +64,6 @@ function showProcess(name: string): void {
 export async function setUp(setup: Setup): Promise<boolean> {
   dock.arranging = true; // so that no layout of an earlier visit comes in between
   try {
-    actions.beginSystem(); // what was done before is not about this exercise, also when its system is the same
     closePlots(); // the groups that they show may not be in the other system
     if (!(await command('open', { system: setup.system, world: `worlds/${setup.world}`, shipped: true }))) return false;
     for (const assignment of setup.set) {

@@ -104,6 +104,11 @@ export default async function({ forage, folder, start, open, faults, step }) {
     await box(to).click();
   };
   const exact = (name) => new RegExp(`^\\s*${name}\\s*$`);
+  const advanced = async (mapping) => {
+    await field('Cells').selectOption('advanced');
+    await field('Pattern').selectOption('mapped');
+    await field('Mapping').selectOption(mapping);
+  };
   step('connections within a page: by clicks');
   await draw('excitatory', exact('Approach'), exact('UR'));
   await named('Selection/Approach → Selection/UR', 'Approach to UR');
@@ -111,18 +116,28 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await named('Selection/UR → Selection/Motor In', 'UR to Motor In');
   await draw('excitatory', 'Const Speed', exact('Explore'));
   await named('Selection/Const Speed → Selection/Explore', 'Const Speed to Explore');
+  await advanced('center');
   await draw('excitatory', exact('Explore'), 'Motor In', [[730, 380]]);
   await named('Selection/Explore → Selection/Motor In', 'Explore to Motor In');
   await draw('excitatory', exact('Approach'), 'Approach Inhibition');
   await named('Selection/Approach → Selection/Approach Inhibition', 'Approach to Approach Inhibition');
+  // Groups of different sizes are connected all to all; the words of the file format are one step further.
+  assert.equal(await field('Cells').inputValue(), 'all to all');
+  await inspector.getByText('9 synapses', { exact: true }).waitFor();
+  await field('Cells').selectOption('advanced');
+  await field('Pattern').selectOption('mapped');
+  await inspector.getByText('1 of 9 cells of Selection/Approach is used.').waitFor();
   await field('Mapping').selectOption('all');
   await draw('inhibitory', 'Approach Inhibition', exact('Explore'));
   await named('Selection/Approach Inhibition → Selection/Explore', 'Approach Inhibition to Explore');
-  await field('Mapping').selectOption('all');
+  await advanced('all');
   await tab('Reactive Layer');
   await draw('excitatory', 'US', exact('Approach'));
   await named('Reactive Layer/US → Reactive Layer/Approach', 'US to Approach');
-  await field('Pattern').selectOption('tuples');
+  await field('Cells').selectOption('nearest');
+  await inspector.getByText('9 synapses', { exact: true }).waitFor();
+  await field('Cells').selectOption('chosen cells');
+  await inspector.getByRole('button', { name: 'Clear' }).click();
   for (const [s, t] of [[3, 1], [4, 5], [5, 9]]) {
     await inspector.getByRole('checkbox', { name: `Source cell (${s}, 1)` }).click();
     await inspector.getByRole('checkbox', { name: `Target cell (${t}, 1)` }).click();
@@ -143,6 +158,8 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await panes.nth(1).locator('.svelte-flow__node').filter({ hasText: exact('Light') }).click();
   await panes.nth(0).locator('.svelte-flow__node').filter({ hasText: exact('US') }).click();
   await named('Bug/Light → Reactive Layer/US', 'Light to US');
+  await advanced('center');
+  await inspector.getByText('Spread and delay').click();
   await field('Arborization').selectOption('ArbRect');
   await write(field('width'), 10);
   await field('Attenuation').selectOption('FunGaussian');
@@ -162,7 +179,7 @@ export default async function({ forage, folder, start, open, faults, step }) {
   };
   await dialog('Reactive Layer/Approach', 'Selection/Approach', 'Reactive Approach to Approach');
   await dialog('Selection/Motor In', 'Bug/Motor', 'Motor In to Motor');
-  await field('Pattern').selectOption('tuples');
+  await field('Cells').selectOption('chosen cells');
   await inspector.getByText('From text').click();
   await inspector.getByLabel('Tuples as text').fill('1,1:1,4 2,1:1,1|2,1 3,1:3,1 4,1:4,1 5,1:5,1 6,1:6,1 7,1:7,1 8,1:8,1|9,1 9,1:9,4');
   await inspector.getByRole('button', { name: 'Add these' }).click();
@@ -196,5 +213,64 @@ export default async function({ forage, folder, start, open, faults, step }) {
     }, readFileSync(join(folder, file), 'utf8'));
   assert.deepEqual(await patterns(mine), await patterns('systems/reactive_foraging.iqr'));
   run('run', mine, '--world', 'systems/worlds/basic_arena.world', '--cycles', '200');
+
+  step('from nothing to a robot that avoids walls, in 12 clicks');
+  await page.evaluate(() => {
+    window.clicks = 0;
+    addEventListener('pointerdown', () => (window.clicks += 1), true);
+    addEventListener('change', (e) => (window.clicks += e.target.matches('select')), true); // it is chosen without the mouse here
+  });
+  await page.getByRole('button', { name: /^Mine/ }).click();
+  await page.getByRole('menuitem', { name: 'New…' }).click();
+  const begin = page.getByRole('dialog', { name: 'New system' });
+  await begin.getByLabel('Begin with').selectOption({ label: 'Robot that drives' });
+  await begin.getByRole('button', { name: 'Create' }).click();
+  await until(page, 'the new system', () => document.title.includes('Robot that drives'));
+  await box(exact('Sensor')).waitFor();
+  await draw('excitatory', exact('Sensor'), exact('Motor'));
+  await field('Cells').selectOption('chosen cells');
+  const middle = async (side, x, y) => {
+    const cell = inspector.getByRole('checkbox', { name: `${side} cell (${x}, ${y})` });
+    await cell.scrollIntoViewIfNeeded();
+    const at = await cell.boundingBox();
+    return [at.x + at.width / 2, at.y + at.height / 2];
+  };
+  for (const [ray, x, y] of [[15, 9, 4], [18, 1, 4]]) {
+    await middle('Target', x, y); // both are in view
+    const from = await middle('Source', ray, 1);
+    await page.mouse.move(...from);
+    await page.mouse.down();
+    await page.mouse.move(...(await middle('Target', x, y)), { steps: 4 });
+    await page.mouse.up();
+    await inspector.getByRole('list', { name: 'Tuples' }).getByText(`${ray},1 → ${x},${y}`).waitFor();
+  }
+  await inspector.getByText('2 of 32 cells of Bug/Sensor are used.').waitFor();
+  await picture(page, 'chooser');
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await until(page, 'it runs', () => Number(document.querySelector('[aria-label="Moment of the run"]')?.value) > 10);
+  const clicks = await page.evaluate(() => window.clicks);
+  assert.ok(clicks <= 12, `${clicks} clicks`);
+  await page.keyboard.press('Control+s');
+  await save.getByLabel('Name').fill('walls.iqr');
+  await save.getByLabel('Name').press('Enter');
+  await page.getByText('Saved as walls.iqr.').waitFor();
+  run('run', 'walls.iqr', '--world', 'systems/worlds/open_arena.world', '--seconds', '60', '-o', 'walls');
+  const places = readFileSync(join(folder, 'walls/trajectory.csv'), 'utf8').trim().split('\n').slice(1).map((line) => line.split(',').slice(2, 4).map(Number));
+  const last = places.slice(-Math.floor(places.length / 3));
+  const way = last.slice(1).reduce((sum, [x, y], k) => sum + Math.hypot(x - last[k][0], y - last[k][1]), 0);
+  assert.ok(way > 10, `it drives on for ${way} m in the last 20 s, and stands at no wall`);
+
+  step('a robot is one choice, and an error has a button that mends it');
+  await page.keyboard.press('Alt+n');
+  await begin.getByLabel('Name').fill('Empty');
+  await begin.getByRole('button', { name: 'Create' }).click();
+  await page.getByRole('button', { name: 'Add the robot Bug' }).click();
+  await tab('Bug');
+  for (const name of ['Motor', 'Proximity sensor', 'Target sensor']) await box(exact(name)).waitFor();
+  assert.equal(await problems.count(), 0);
+  await box(exact('Motor')).press('Delete');
+  await page.getByRole('button', { name: '1 problem' }).click();
+  await page.getByRole('group', { name: 'Problems' }).getByRole('button', { name: 'Create group 9 × 9' }).click();
+  await problems.waitFor({ state: 'detached' });
   assert.deepEqual(faults, []);
 }

@@ -116,10 +116,10 @@ export default async function({ folder, context, start, open, faults, step }) {
   await dirty(); // the arrows are sent together, shortly after the last one
   await page.keyboard.press('Control+Shift+ArrowRight');
   await inspector.getByLabel('Width').waitFor();
-  await until(page, 'it is wider', () => document.querySelector('[aria-label="Inspector"] input[type=number]')?.value === '100' && document.querySelector('.svelte-flow__node-comment').offsetWidth === 200);
+  await until(page, 'it is wider', () => document.querySelector('[aria-label="Inspector"] input.number')?.value === '100' && document.querySelector('.svelte-flow__node-comment').offsetWidth === 200);
   const corner = await page.locator('.svelte-flow__resize-control.handle.bottom.right').boundingBox();
   await drag([corner.x + 3, corner.y + 3], [corner.x + 63, corner.y + 43]);
-  await until(page, 'it is wider still', () => Number(document.querySelector('[aria-label="Inspector"] input[type=number]')?.value) > 100);
+  await until(page, 'it is wider still', () => Number(document.querySelector('[aria-label="Inspector"] input.number')?.value) > 100);
   await until(page, 'its colour as it is seen', () => document.querySelector('[aria-label="Inspector"] input[type=color]')?.value === '#fdf3c7');
   await inspector.getByLabel('Colour').fill('#204060');
   await until(page, 'its colour', () => getComputedStyle(document.querySelector('.svelte-flow__node-comment .comment')).color === 'rgb(255, 255, 255)');

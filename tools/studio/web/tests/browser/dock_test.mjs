@@ -307,5 +307,11 @@ export default async function({ folder, start, open, faults, step }) {
   await page.getByRole('button', { name: 'Layouts of the panels' }).press('Enter');
   await page.getByRole('button', { name: 'mine', exact: true }).press('Enter');
   await until(page, 'the layout with its floating window', () => document.querySelector('.dv-resize-container'));
+
+  step('when all panels are closed, it is said how to open some');
+  for (const close = page.locator('.dv-default-tab-action'); await close.count();) await close.first().dispatchEvent('click');
+  await page.getByText('All panels are closed.').waitFor();
+  await page.getByRole('button', { name: 'Overview', exact: true }).click();
+  await page.getByRole('group', { name: 'Arena' }).waitFor();
   assert.deepEqual(faults, []);
 }

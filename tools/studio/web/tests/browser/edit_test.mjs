@@ -160,6 +160,13 @@ export default async function({ folder, context, start, open, faults, step }) {
   await page.keyboard.press('Delete');
   await count(6);
 
+  step('a message says how many connections go with a group, and brings them back');
+  await node('selection.explore').press('Delete');
+  const removed = page.locator('.notice').filter({ hasText: /^Selection\/Explore and 3 connections are deleted/ });
+  await removed.getByRole('button', { name: 'Undo' }).click();
+  await removed.waitFor({ state: 'detached' });
+  await node('selection.explore').waitFor();
+
   step('two groups of a type are changed together');
   await node('selection.approach').click();
   await node('selection.explore').click({ modifiers: ['Control'] });

@@ -119,6 +119,17 @@ export default async function({ start, open, faults, step }) {
   step('axe finds no serious fault of accessibility');
   await accessible(page);
 
+  step('a number of trials runs, and then it pauses; hits and misses stand by their starts');
+  await page.getByRole('button', { name: 'End', exact: true }).click(); // the driving
+  await page.getByRole('button', { name: 'Max', exact: true }).click();
+  await page.getByRole('button', { name: /^Trial \d/ }).click();
+  const trials = page.getByRole('group', { name: 'Trials' });
+  await trials.getByLabel('Number of trials').fill('3');
+  await trials.getByRole('button', { name: 'Run', exact: true }).click();
+  await trials.getByText(/^\d of 3 reached the target: \d+ % \(95 % interval/).waitFor();
+  await page.getByRole('group', { name: 'Run' }).getByRole('button', { name: 'Run', exact: true }).waitFor(); // it is paused
+  assert.equal(await trials.locator('dd i').count(), 3);
+  await picture(page, 'trials');
   step('the server ends: the page says so; faults in between: none');
   assert.deepEqual(faults, []);
   studio.child.removeAllListeners('exit');

@@ -27,7 +27,7 @@ export default async function({ folder, start, open, faults, step }) {
   step('a part of the list is added, with its ports and constants');
   await diagram.getByRole('button', { name: 'Add a part' }).click();
   const list = page.getByRole('dialog', { name: 'Add a part' });
-  await list.getByText('With Forage').waitFor();
+  await list.getByText('Built in').waitFor();
   await list.getByText('Two cells that inhibit each other and tire, and so are active in turns').waitFor();
   await list.getByText('ports drive, out').waitFor();
   await accessible(page, 'the list of parts');

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
-import { accessible, until } from './support.mjs';
+import { accessible, picture, until } from './support.mjs';
 
 export default async function({ folder, start, open, faults, step }) {
   const page = await open(await start().address);
@@ -12,9 +12,13 @@ export default async function({ folder, start, open, faults, step }) {
   await page.getByRole('button', { name: 'Tutorial', exact: true }).click();
   const tutorial = page.getByRole('group', { name: 'Tutorial', exact: true });
   await tutorial.getByRole('heading', { name: 'Tutorial 1: getting started' }).waitFor();
-  const picture = tutorial.getByAltText('Three starts, six patches of six colours, one target');
-  await picture.scrollIntoViewIfNeeded();
+  const image = tutorial.getByAltText('Three starts, six patches of six colours, one target');
+  await image.scrollIntoViewIfNeeded();
   await until(page, 'the picture', () => document.querySelector('[aria-label="Tutorial"] img').naturalWidth > 100);
+  await image.click();
+  const large = page.getByRole('dialog', { name: 'Picture' });
+  await until(page, 'a larger picture', () => document.querySelector('dialog[open] img').offsetWidth > 1.5 * document.querySelector('[aria-label="Tutorial"] img').offsetWidth);
+  await large.getByRole('button', { name: 'Close' }).click();
 
   step('the first exercise of each part, or every one with FORAGE_WHOLE, is set up: its system is opened, no command is refused, each of its plots gets numbers, and the diagram shows the process that it is about');
   const refused = page.locator('.notice.error');
@@ -27,6 +31,7 @@ export default async function({ folder, start, open, faults, step }) {
     6: Array(5).fill('Allostasis'),
   };
   for (const [part, processes] of Object.entries(about)) {
+    await tutorial.locator('[data-set]:enabled').first().waitFor({ state: 'detached' });
     await tutorial.getByRole('button', { name: part, exact: true }).click();
     const count = await tutorial.locator('[data-open]').count();
     assert.equal(count, processes.length, `set-ups of part ${part}`);
@@ -44,6 +49,23 @@ export default async function({ folder, start, open, faults, step }) {
       assert.equal(await refused.count(), 0, `${part}, set-up ${i + 1}: ${await refused.allTextContents()}`);
     }
   }
+
+  step('in narrow windows all that it names is seen: the trials, and plots that can be read');
+  await tutorial.getByRole('button', { name: '5', exact: true }).click();
+  for (const [width, height] of [[1024, 700], [700, 600]]) {
+    await page.setViewportSize({ width, height });
+    await tutorial.locator('[data-open="0"]').click();
+    await tutorial.locator('.setup.active [data-open="0"]').waitFor();
+    for (const tab of ['Contextual/Proposal raster', 'mean(Contextual/Entropy) over time', 'Diagram', 'Arena']) {
+      await page.locator('.dv-tab', { hasText: tab }).click();
+      await until(page, `${tab} at ${width} x ${height}`, (t) => [...document.querySelectorAll('.dv-groupview')].some((g) => g.querySelector('.dv-active-tab')?.textContent.includes(t) && g.offsetHeight > 200 && g.offsetWidth > 300), tab);
+    }
+    await until(page, 'the trials', () => [...document.querySelectorAll('.readings > div')].some((d) => d.textContent.startsWith('trials') && d.getBoundingClientRect().bottom <= d.parentElement.getBoundingClientRect().bottom));
+    const strip = await page.evaluate(() => [...document.querySelectorAll('footer > *')].filter((e) => e.offsetWidth).map((e) => e.getBoundingClientRect().right));
+    assert.ok(Math.max(...strip) <= width, `the status strip at ${width}`);
+    await picture(page, `tutorial-${width}`);
+  }
+  await page.setViewportSize({ width: 1400, height: 900 });
 
   step('a system of the tutorial is saved under another name, in the folder of the user');
   await page.keyboard.press('Control+s');

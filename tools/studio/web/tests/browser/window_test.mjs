@@ -76,7 +76,7 @@ export default async function({ start, open, faults, step }) {
   await page.evaluate(() => localStorage.clear());
   await page.setViewportSize(small);
   await count(page, 1);
-  await page.evaluate(() => Object.keys(localStorage).filter((k) => !k.includes('narrow')).forEach((k) => localStorage.removeItem(k)));
+  await page.evaluate(() => Object.keys(localStorage).filter((k) => !k.includes('small')).forEach((k) => localStorage.removeItem(k)));
   await page.reload();
   await count(page, 1);
   await page.setViewportSize(large);
@@ -131,7 +131,7 @@ export default async function({ start, open, faults, step }) {
   };
   let dialog = await settings(page);
   const seconds = () => dialog.getByLabel('Seconds between two savings of the session');
-  await until(page, 'the time', () => document.querySelector('dialog[open] input[type=number]')?.value === '20');
+  await until(page, 'the time', () => document.querySelector('dialog[open] input.number')?.value === '20');
   await seconds().fill('4');
   await page.keyboard.press('Enter');
   assert.equal(await dialog.isVisible(), true, 'a crash would lose more than a minute, or the disk is always busy: refused');
@@ -143,7 +143,7 @@ export default async function({ start, open, faults, step }) {
   await page.locator('.dv-tab').first().waitFor();
   await until(page, 'dark colours', () => document.documentElement.classList.contains('dark'));
   dialog = await settings(page);
-  await until(page, 'the time that was set', () => document.querySelector('dialog[open] input[type=number]')?.value === '30');
+  await until(page, 'the time that was set', () => document.querySelector('dialog[open] input.number')?.value === '30');
   await page.keyboard.press('Escape');
 
   step('names in forms break between their words only');

@@ -14,7 +14,7 @@ vi.mock('../../src/studio', () => {
 vi.stubGlobal('navigator', {});
 
 const { affectedText } = await import('../../src/edit/forms/affected_text');
-const { refusal } = await import('../../src/edit/forms/refusal');
+const { readNumber, refusal } = await import('../../src/parts/read_number');
 const { editing } = await import('../../src/edit/document.svelte');
 const { connect, setParameter } = await import('../../src/edit/operations');
 const { copy, cut, paste, withConnections } = await import('../../src/edit/clipboard');
@@ -135,6 +135,13 @@ describe('the fields of a form', () => {
     expect(refusal(3, null, 2)).toBe('3 is not taken: at most 2.');
     expect(refusal(1, 0, 1)).toBe('');
     expect(refusal(-5, null, null)).toBe('');
+    expect(readNumber('7', { low: 0, high: 1 })).toBe('7 is not taken: 0 to 1.');
+  });
+  it('reads all of a number, or says why not', () => {
+    for (const [text, value] of [['0.5', 0.5], ['0,5', 0.5], [' 12 ', 12], ['−3', -3], ['1e-3', 0.001], ['.5', 0.5], ['0,500', 0.5]] as const) expect(readNumber(text)).toBe(value);
+    for (const text of ['0x10', '1 2', '4px', '1,2,3', '1.2.3', 'Infinity', '']) expect(readNumber(text)).toBeTypeOf('string');
+    expect(readNumber('1,500')).toBe('1,500 has two meanings: write 1500, or 1.500.');
+    expect(readNumber('3.7', { whole: true })).toBe('3.7 is not a whole number.');
   });
   it('say what acts on all selected items, and what on one', () => {
     expect(affectedText('group', 2, 2)).toBe('Colour, neuron, cells and parameters act on the 2 selected groups; name and note act on this one only.');

@@ -43,7 +43,7 @@ describe('pages of the tutorial', () => {
       say: 'Press *Run* <now>.',
     }]);
     expect(made.html).toContain('data-open="0">Set it up</button>');
-    expect(made.html).toContain('data-set="P.y=0.5" aria-label="P.y = 0.5">0.5</button>');
+    expect(made.html).toContain('data-set="P.y=0.5" aria-label="P.y = 0.5" disabled>0.5</button>');
     expect(made.html).toContain('Press <em>Run</em> &#60;now&#62;.');
     expect(made.html).not.toContain('<!--');
   });

@@ -32,7 +32,7 @@ export function toggled(places: Place[], cells: Place[]): Place[] {
 /** Tuples of a text as the original imports it: "1,1|2,1:3,1 4,1:5,1". */
 export function parseTuples(text: string): Tuple[] {
   return text.split(/\s+/).filter(Boolean).map((token) => {
-    const sides = token.split(':').map((side) => side.split('|').map((p) => p.split(',').map(Number) as Place));
+    const sides = token.split(':').map((side) => side.split('|').map((p) => p.split(',').map((n) => (/^\d+$/.test(n) ? Number(n) : NaN)) as Place));
     if (sides.length !== 2 || sides.flat().some((p) => p.length !== 2 || p.some((n) => !Number.isInteger(n)))) throw new Error(`"${token}" is not of the form 1,1|2,1:3,1`);
     return { source: sides[0]!, target: sides[1]! };
   });

@@ -1,0 +1,35 @@
+// What the trials of a run show: where they began, and how the share of hits grows.
+import type { Trial } from '../protocol/messages';
+
+/** A start pose in words, with so many digits that random starts fall together. */
+const startText = ([x, y, yaw]: Trial['start']): string => `${x.toFixed(1)}, ${y.toFixed(1)} m, ${Math.round((yaw * 180) / Math.PI)}°`;
+
+/** The trials by their start poses, in the order in which these came first; more than `most` different ones are one row. */
+export function byStart(trials: Trial[], most = 12): { start: string; trials: Trial[] }[] {
+  const rows = new Map<string, Trial[]>();
+  for (const t of trials) rows.set(startText(t.start), [...(rows.get(startText(t.start)) ?? []), t]);
+  if (rows.size > most) return [{ start: 'all starts', trials }];
+  return [...rows].map(([start, some]) => ({ start, trials: some }));
+}
+
+/** The share of hits with its interval of 95 % (Wilson's score). */
+interface Share {
+  share: number;
+  low: number;
+  high: number;
+}
+export function shareOf(hits: number, count: number): Share {
+  if (count === 0) return { share: NaN, low: 0, high: 1 };
+  const z = 1.96, p = hits / count, d = 1 + (z * z) / count;
+  const middle = (p + (z * z) / (2 * count)) / d, half = (z / d) * Math.sqrt((p * (1 - p)) / count + (z * z) / (4 * count * count));
+  return { share: p, low: Math.max(0, middle - half), high: Math.min(1, middle + half) };
+}
+
+/** The share among the last `window` trials, after each trial. */
+export function learningCurve(trials: Trial[], window = 20): Share[] {
+  let hits = 0;
+  return trials.map((t, i) => {
+    hits += Number(t.reached_target) - Number(i >= window && trials[i - window]!.reached_target);
+    return shareOf(hits, Math.min(i + 1, window));
+  });
+}

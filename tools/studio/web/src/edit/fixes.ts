@@ -1,0 +1,24 @@
+// What mends a problem, as buttons beside it.
+import type { DocumentProblem } from '../protocol/messages';
+import { model } from '../stores/model.svelte';
+import { edit } from './operations';
+
+interface Fix {
+  label: string;
+  act(): unknown;
+}
+
+export function fixesOf(p: DocumentProblem): Fix[] {
+  const item = model.find(p.item);
+  if (item?.kind !== 'process') return [];
+  const id = item.process.id;
+  if (p.port && p.size) return [{ label: `Create group ${p.size[0]} × ${p.size[1]}`, act: () => edit({ do: 'port_groups', id, ports: [p.port!] }) }];
+  if (p.parameter === 'device_name') return (model.world?.robots ?? []).slice(0, 3).map((r) => ({ label: `Use '${r.name}'`, act: () => edit({ do: 'parameter', id, name: 'device_name', value: r.name }) }));
+  return [];
+}
+
+/** The robots of the world that no module of the system names. */
+export const freeRobots = (): string[] => (model.world?.robots ?? []).map((r) => r.name).filter((name) => !model.processes.some((p) => p.module && p.name === name));
+
+/** Adds a process with the groups of a robot. */
+export const addRobot = (name: string, place: [number, number] = [40, 40]) => edit({ do: 'add_robot', name, x: place[0], y: place[1] }, `Add the robot ${name}`);

@@ -1,0 +1,32 @@
+// The question before changes would be lost, and its answer.
+interface Question {
+  title: string;
+  text: string;
+  /** The text of the button that goes on without saving. */
+  verb: string;
+  /** Saves first, and resolves with whether all is saved; without it there is nothing to save. */
+  save?(): Promise<boolean>;
+}
+
+class Leaving {
+  question = $state.raw<Question | null>(null);
+  private answered: (goOn: boolean) => void = () => {};
+
+  /** Resolves with whether to go on. */
+  ask(question: Question): Promise<boolean> {
+    this.answered(false);
+    this.question = question;
+    return new Promise((answered) => (this.answered = answered));
+  }
+  answer(goOn: boolean): void {
+    this.question = null;
+    this.answered(goOn);
+  }
+  async act(): Promise<void> {
+    const save = this.question?.save;
+    this.question = null;
+    this.answered(save ? await save() : true);
+  }
+}
+
+export const leaving = new Leaving();
