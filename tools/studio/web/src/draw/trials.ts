@@ -1,8 +1,10 @@
 // What the trials of a run show: where they began, and how the share of hits grows.
 import type { Trial } from '../protocol/messages';
 
-/** A start pose in words, with so many digits that random starts fall together. */
-const startText = ([x, y, yaw]: Trial['start']): string => `${x.toFixed(1)}, ${y.toFixed(1)} m, ${Math.round((yaw * 180) / Math.PI)}°`;
+/** A number in steps, without a sign before 0. */
+const inSteps = (v: number, step: number) => Math.round(v / step) * step + 0;
+/** A start pose in words, so coarse that starts that differ by noise fall together. */
+const startText = ([x, y, yaw]: Trial['start']): string => `${inSteps(x, 0.1).toFixed(1)}, ${inSteps(y, 0.1).toFixed(1)} m, ${inSteps((yaw * 180) / Math.PI, 10)}°`;
 
 /** The trials by their start poses, in the order in which these came first; more than `most` different ones are one row. */
 export function byStart(trials: Trial[], most = 12): { start: string; trials: Trial[] }[] {

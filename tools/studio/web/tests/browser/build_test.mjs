@@ -264,7 +264,7 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await page.keyboard.press('Alt+n');
   await begin.getByLabel('Name').fill('Empty');
   await begin.getByRole('button', { name: 'Create' }).click();
-  await page.getByRole('button', { name: 'Add the robot Bug' }).click();
+  await page.getByRole('button', { name: 'Add the robot Bug' }).first().click(); // in either pane
   await tab('Bug');
   for (const name of ['Motor', 'Proximity sensor', 'Target sensor']) await box(exact(name)).waitFor();
   assert.equal(await problems.count(), 0);

@@ -210,7 +210,7 @@ export default async function({ folder, context, start, open, faults, step }) {
 
   step('axe finds no serious fault of accessibility');
   await find(page, 'US to Approach');
-  await inspector.getByLabel('Pattern', { exact: true }).waitFor();
+  await inspector.getByLabel('Cells', { exact: true }).waitFor();
   await accessible(page);
   await page.getByRole('button', { name: /Reactive foraging/ }).first().click();
   await page.getByRole('menuitem', { name: 'Save as' }).waitFor();

@@ -182,7 +182,7 @@ export default async function({ folder, context, start, open, faults, step }) {
 
   step('tuples come from a file');
   await find(page, 'CR to Threshold CR');
-  await inspector.getByLabel('Pattern', { exact: true }).selectOption('tuples');
+  await inspector.getByLabel('Cells', { exact: true }).selectOption('chosen cells');
   await inspector.getByText('From text or a file').click();
   writeFileSync(join(folder, 'tuples.txt'), '1,1|2,1:3,1\n4,1:5,1\n');
   await inspector.getByLabel('Import tuples from a file').setInputFiles(join(folder, 'tuples.txt'));

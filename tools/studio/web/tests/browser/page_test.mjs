@@ -48,7 +48,10 @@ export default async function({ start, open, faults, step }) {
   const loaded = await threshold.inputValue();
   await threshold.fill('0.77');
   await threshold.press('Enter');
+  assert.equal(await inspector.getByText('run.params').count(), 0, 'scripts stand in the log');
+  await page.getByRole('button', { name: 'Log', exact: true }).click();
   await page.getByText('run.params["Adaptive/Threshold CR.threshold"] = 0.77').first().waitFor();
+  await find(page, 'panel: close');
   await inspector.getByRole('button', { name: /^Reset/ }).waitFor();
   await page.getByRole('button', { name: 'Undo' }).click();
   await until(page, 'undo', ([id, value]) => document.getElementById(id)?.value === value, ['Adaptive/Threshold CR.threshold', loaded]);

@@ -31,8 +31,8 @@ export default async function({ folder, start, open, faults, step }) {
     6: Array(5).fill('Allostasis'),
   };
   for (const [part, processes] of Object.entries(about)) {
-    await tutorial.locator('[data-set]:enabled').first().waitFor({ state: 'detached' });
     await tutorial.getByRole('button', { name: part, exact: true }).click();
+    await tutorial.locator('[data-set]:enabled').first().waitFor({ state: 'detached' }); // they act once their exercise is set up
     const count = await tutorial.locator('[data-open]').count();
     assert.equal(count, processes.length, `set-ups of part ${part}`);
     for (let i = 0; i < (process.env.FORAGE_WHOLE ? count : 1); i++) {
