@@ -628,7 +628,10 @@ TEST_CASE("a new system is built from nothing, saved under a name, and opened ag
     e.result({{"command", "restart"}, {"seed", 7}});
     e.result({{"command", "save"}});
     CHECK(e.result({{"command", "recent"}})["files"][0]["seed"] == 7);
-    e.result({{"command", "open"}, {"system", e.file}});
+    e.result({{"command", "open"},
+              {"system", e.file},
+              {"world", FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world"}});
+    CHECK(e.session->run().seed() == 1);
     e.result({{"command", "open"}, {"system", file}});
     CHECK(e.session->run().seed() == 7);  // a system has its own seed
     const auto listed = e.result({{"command", "files"}, {"folder", e.folder.string()}})["files"];

@@ -2,7 +2,7 @@
 interface Question {
   title: string;
   text: string;
-  /** The text of the button that goes on without saving. */
+  /** The text of the button that continues without saving. */
   verb: string;
   /** Saves first, and resolves with whether all is saved; without it there is nothing to save. */
   save?(): Promise<boolean>;
@@ -10,17 +10,17 @@ interface Question {
 
 class Leaving {
   question = $state.raw<Question | null>(null);
-  private answered: (goOn: boolean) => void = () => {};
+  private answered: (proceed: boolean) => void = () => {};
 
-  /** Resolves with whether to go on. */
+  /** Resolves with whether to continue. */
   ask(question: Question): Promise<boolean> {
     this.answered(false);
     this.question = question;
     return new Promise((answered) => (this.answered = answered));
   }
-  answer(goOn: boolean): void {
+  answer(proceed: boolean): void {
     this.question = null;
-    this.answered(goOn);
+    this.answered(proceed);
   }
   async act(): Promise<void> {
     const save = this.question?.save;
