@@ -259,7 +259,7 @@ export default async function({ folder, context, start, open, faults, step }) {
   const gain = teams.locator('[id="B_1/Motor.excGain"]');
   await gain.fill('2');
   await gain.press('Enter');
-  await form.getByText('B_1/Motor.excGain = 2').waitFor();
+  await teams.getByTitle(/^Undo: B_1\/Motor.excGain = 2/).waitFor();
   await teams.close();
 
   assert.deepEqual(faults, []);
