@@ -1,8 +1,11 @@
 // Mistakes in world files.
 #include "bug_interface/world/sdf_reader.h"
 
+#include <filesystem>
+
 #include <fmt/format.h>
 
+#include "core/base/installation.h"
 #include "tests/unit/bug_interface/world_diagnostics.h"
 
 using namespace forage;
@@ -56,6 +59,10 @@ TEST_CASE("An incomplete or wrong include gives an error with a hint") {
 
 TEST_CASE("Models that are not found give one error with a hint") {
     const std::string said = diagnostics_of(edited("</world>", "</world>"), false);
+    if (std::filesystem::exists(installation() / "share/forage/systems/worlds/models")) {
+        CHECK(said.empty());  // those that come with Forage are found last
+        return;
+    }
     CHECK(
         said ==
         "46: error: model 'model://floor_basic' not found: there is no folder of models | put models into a "
