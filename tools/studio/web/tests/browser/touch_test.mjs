@@ -7,7 +7,6 @@ import { find, picture, until } from './support.mjs';
 export default async function({ folder, start, open, faults, step }) {
   const studio = start(['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
   const page = await open(await studio.address);
-  page.on('dialog', (d) => d.accept());
   const tree = page.getByRole('navigation'), inspector = page.getByRole('region', { name: 'Inspector' }), dialog = page.locator('dialog[open]');
   const press = async (...keys) => {
     for (const k of keys) await page.keyboard.press(k);
@@ -95,7 +94,7 @@ export default async function({ folder, start, open, faults, step }) {
   await press('Tab', 'ArrowRight', 'ArrowRight', 'ArrowRight');
   await page.getByTitle(/^Undo: move /).waitFor();
   await page.getByRole('button', { name: 'Undo' }).click();
-  await page.getByText(/^undo: move/).first().waitFor({ state: 'attached' });
+  await page.getByTitle(/^Redo: move /).waitFor();
 
   step('a light is moved while the run continues, and put back');
   for (let i = 0; i < 3; i++) await page.getByRole('button', { name: 'Step one cycle' }).click();
@@ -105,7 +104,7 @@ export default async function({ folder, start, open, faults, step }) {
   const cycle = () => page.getByLabel('Moment of the run').inputValue();
   assert.equal(await cycle(), '3');
   await page.getByRole('button', { name: 'Undo' }).click();
-  await page.getByText(/^undo: move/).first().waitFor({ state: 'attached' });
+  await page.getByTitle(/^Redo: move /).waitFor();
   await until(page, 'the world is as in its file', () => !document.querySelector('[aria-label*="its world has changes"]'));
 
   step('the open system goes to another world, which is chosen from those that come with Forage');
@@ -123,6 +122,7 @@ export default async function({ folder, start, open, faults, step }) {
   });
   await page.locator('button.name').click();
   await page.getByRole('menuitem', { name: 'Quit…' }).click();
+  await dialog.getByRole('button', { name: /^Quit/ }).click();
   assert.equal(await ended, 0);
   await page.getByText('Forage has ended.').waitFor();
   assert.deepEqual(faults, []);
