@@ -29,7 +29,7 @@ std::vector<Point> cells_of(const Topology& topology) {
     }
     const auto& rect = std::get<RectTopology>(topology);
     for (int y = 1; y <= rect.height; ++y)
-        for (int x = 1; x <= rect.width; ++x) out.push_back({x, y});
+        for (int x = 1; x <= rect.width; ++x) out.push_back({x, y, {}});
     return out;
 }
 
