@@ -96,11 +96,16 @@ Camera::Camera(const CameraSensor& sensor, const Pose& link_pose, std::shared_pt
     std::vector<Area> areas;
     for (const VisualSolid& visual : scene_->solids()) areas.push_back(area_of(visual.solid));
     solids_.assign(areas, 2);
-    near_.reserve(areas.size()), windows_.reserve(areas.size() + 64);
+    cover_.resize(blocks_.size()), own_blocks_.assign(blocks_.size(), -1);
+    reserve();
+}
+
+void Camera::reserve() {
+    const std::size_t solids = scene_->solids().size();
+    near_.reserve(solids), windows_.reserve(solids + 64);
     reach_.reserve(static_cast<std::size_t>(height_));
     spans_.reserve(windows_.capacity() * static_cast<std::size_t>(height_));
     colours_.reserve(1 + faces * windows_.capacity());
-    cover_.resize(blocks_.size()), own_blocks_.assign(blocks_.size(), -1);
 }
 
 Eigen::Vector3d Camera::ray(double column, double row) const {

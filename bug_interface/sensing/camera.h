@@ -28,6 +28,9 @@ class Camera {
     Camera(const CameraSensor& sensor, const Pose& link_pose, std::shared_ptr<const Scene> scene,
            int samples_per_axis = 2);
 
+    /// Makes room for what render() works with, which a copy of a camera lacks.
+    void reserve();
+
     int width() const { return width_; }    ///< pixels
     int height() const { return height_; }  ///< pixels
 

@@ -116,7 +116,7 @@ void RobotSensors::sense_due(double now, const BodyPoses& poses, MovingVisuals& 
 
 void RobotSensors::make_camera(const Camera& like) {
     if (camera_) return;
-    camera_.emplace(like);
+    camera_.emplace(like).reserve();
     const auto values =
         3 * static_cast<std::size_t>(camera_->width()) * static_cast<std::size_t>(camera_->height());
     picture_.resize(values);

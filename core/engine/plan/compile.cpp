@@ -48,8 +48,7 @@ class Compiler {
   public:
     Compiler(const model::System& system, std::shared_ptr<const Layout> layout, const Demand& demand,
              const Options& options, Diagnostics& diagnostics)
-        : system_(system),
-          constants_(system),
+        : constants_(system),
           groups_of_(system),
           order_(system),
           demand_(demand),
@@ -382,7 +381,6 @@ class Compiler {
                 plan_->modules[i].outputs.push_back(rows.reserve(g < 0 ? 0 : plan_->groups[g].cells));
     }
 
-    const model::System& system_;
     model::Constants constants_;
     model::GroupIndex groups_of_;
     UpdateOrder order_;
