@@ -86,11 +86,14 @@ export default async function({ folder, context, start, open, faults, step }) {
   await alert("'0x10' is not a number.");
   await persistence.fill('0,5');
   await persistence.press('Enter');
-  await until(page, 'the decimal comma', () => document.getElementById('Bug/Motor.vmPrs')?.value === '0.5');
+  const undo = page.getByTitle(/^Undo: Bug\/Motor.vmPrs = 0.5/);
+  await undo.waitFor();
+  assert.equal(await persistence.inputValue(), '0.5', 'the decimal comma');
   await page.keyboard.press('Escape');
   await heading('Bug/Motor');
   await persistence.blur();
   await page.keyboard.press('Control+z');
+  await undo.waitFor({ state: 'detached' });
   await until(page, 'the former value', () => document.getElementById('Bug/Motor.vmPrs')?.value === '0');
   await persistence.fill('7');
   await persistence.press('Enter');
@@ -100,6 +103,7 @@ export default async function({ folder, context, start, open, faults, step }) {
   await inspector.getByRole('button', { name: 'Use 7 all the same' }).click();
   await until(page, 'the unusual value', () => document.getElementById('Bug/Motor.vmPrs')?.value === '7');
   await page.keyboard.press('Control+z');
+  await undo.waitFor({ state: 'detached' });
   await until(page, 'the former value', () => document.getElementById('Bug/Motor.vmPrs')?.value === '0');
 
   step('a note is written for one of several items; keys select several');
