@@ -32,6 +32,7 @@ def output(run):
 def test_a_connection_is_made_from_an_array_and_read_as_one():
     run = forage.open(two_groups(weights=MATRIX))
     link = run["A to B"]
+    assert "A to B" in run and "P/A" in run and "B to A" not in run
     assert (link.weight == MATRIX).all() and link.shape == (3, 4) and link.type == "synapseFixedWeight" and link.name == "A to B"
     assert not link.weight.flags.writeable
     assert output(run) == pytest.approx(MATRIX @ [1, 2, 3, 4])

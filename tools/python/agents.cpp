@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <string_view>
 
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
@@ -204,23 +203,11 @@ py::array_t<float> reset_pool(PythonPool& self, const std::vector<std::optional<
     return out;
 }
 
-/// The parameters and weights of environments: `runs` is 1, or the number of runs of a pool.
+/// Sets the weights of a connection of environments: `runs` is 1, or the number of runs of a pool.
 template <class Agents>
 void set_weights(Agents& agents, const Run& run, std::size_t runs, const std::string& name,
                  const py::object& values) {
-    const auto array = weights_of(values);
-    const auto& layout = run.layout();
-    const auto& c = layout.connections[static_cast<std::size_t>(find_connection(run, name))];
-    const auto cells = [&](int g) { return layout.groups[static_cast<std::size_t>(g)].shape.cells; };
-    std::vector<py::ssize_t> shape(array.shape(), array.shape() + array.ndim());
-    if (shape.size() == 3 && static_cast<std::size_t>(shape[0]) == runs) shape.erase(shape.begin());
-    if (shape != std::vector<py::ssize_t>{cells(c.target), cells(c.source)})
-        throw InputError(
-            fmt::format("the weights of connection '{}' are an array of shape ({}, {}): targets, sources",
-                        c.name, cells(c.target), cells(c.source)),
-            runs > 1 ? fmt::format("or of shape ({}, {}, {}), with those of each environment", runs,
-                                   cells(c.target), cells(c.source))
-                     : "");
+    const auto array = weights_of(values, run, find_connection(run, name), runs);
     agents.set_weights(name, {array.data(), static_cast<std::size_t>(array.size())});
 }
 

@@ -148,8 +148,10 @@ py::object item(PythonRun& self, const std::string& name) {
     return py::cast(find_group(self, name));
 }
 
-bool has_group(const PythonRun& self, const std::string& path) {
-    return std::ranges::any_of(self.use().layout().groups, [&](const auto& g) { return g.path == path; });
+bool run_has(const PythonRun& self, const std::string& name) {
+    const Run& run = self.use();
+    return is_connection(run, name) ||
+           std::ranges::any_of(run.layout().groups, [&](const auto& g) { return g.path == name; });
 }
 
 void remove(PythonRun& self, const py::object& what) {
@@ -332,7 +334,7 @@ file: a name that ends with .gif, with .mp4 where ffmpeg is installed, or with .
 groups: sources whose activity is shown beside the world, such as "Process/Group".
 Returns a Film, which is complete when it or the run is closed. Raises InputError, also without a world.)");
     run.def("__getitem__", &item)
-        .def("__contains__", &has_group)
+        .def("__contains__", &run_has)
         .def("__enter__", [](PythonRun& self) { return self.shared_from_this(); })
         .def("__exit__", [](PythonRun& self, const py::args&) { self.close(); })
         .def("_repr_html_", html("run"))

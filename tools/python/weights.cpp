@@ -2,6 +2,7 @@
 #include "tools/python/weights.h"
 
 #include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -31,20 +32,16 @@ py::array weight(const PythonConnection& self) {
 }
 
 void set_weight(const PythonConnection& self, const py::object& values) {
-    const auto& c = about(self);
-    const auto array = weights_of(values);
-    const py::ssize_t targets = cells(self, c.target), sources = cells(self, c.source);
-    if (array.ndim() != 2 || array.shape(0) != targets || array.shape(1) != sources)
-        throw InputError(
-            fmt::format("the weights of connection '{}' are an array of shape ({}, {}): targets, sources",
-                        c.name, targets, sources));
     Run& run = self.run->use();
+    const auto array = weights_of(values, run, self.number);
     set_weights(run, check_weights(run, self.number, {array.data(), static_cast<std::size_t>(array.size())}));
 }
 
 }  // namespace
 
-py::array_t<double, py::array::c_style | py::array::forcecast> weights_of(const py::object& values) {
+py::array_t<double, py::array::c_style | py::array::forcecast> weights_of(const py::object& values,
+                                                                          const Run& run, int connection,
+                                                                          std::size_t runs) {
     py::object numbers = values;
     if (py::hasattr(values, "tocoo")) {
         const py::object sparse = values.attr("tocoo")("copy"_a = true);
@@ -53,7 +50,20 @@ py::array_t<double, py::array::c_style | py::array::forcecast> weights_of(const 
                                                             std::numeric_limits<double>::quiet_NaN());
         numbers[py::make_tuple(sparse.attr("row"), sparse.attr("col"))] = sparse.attr("data");
     }
-    return numeric_array(numbers, "weights");
+    const auto array = numeric_array(numbers, "weights");
+    const auto& layout = run.layout();
+    const auto& c = layout.connections[static_cast<std::size_t>(connection)];
+    const auto cells = [&](int g) { return layout.groups[static_cast<std::size_t>(g)].shape.cells; };
+    std::vector<py::ssize_t> shape(array.shape(), array.shape() + array.ndim());
+    if (shape.size() == 3 && static_cast<std::size_t>(shape[0]) == runs) shape.erase(shape.begin());
+    if (shape != std::vector<py::ssize_t>{cells(c.target), cells(c.source)})
+        throw InputError(
+            fmt::format("the weights of connection '{}' are an array of shape ({}, {}): targets, sources",
+                        c.name, cells(c.target), cells(c.source)),
+            runs > 1 ? fmt::format("or of shape ({}, {}, {}), with those of each environment", runs,
+                                   cells(c.target), cells(c.source))
+                     : "");
+    return array;
 }
 
 void add_connections(py::module_& module) {

@@ -15,6 +15,11 @@ namespace {
 
 constexpr std::size_t max_runs = 10'000;  ///< each takes megabytes
 
+void check_count(std::size_t given, std::size_t runs, const char* what) {
+    if (given > 0 && given != runs)
+        throw InputError(fmt::format("there are {} {} for {} environments", given, what, runs));
+}
+
 }  // namespace
 
 AgentPool::AgentPool(const std::shared_ptr<const AgentTask>& task, std::size_t runs, int threads) {
@@ -33,15 +38,6 @@ AgentPool::AgentPool(const std::shared_ptr<const AgentTask>& task, std::size_t r
 AgentPool::~AgentPool() = default;
 
 int AgentPool::threads() const { return threads_->threads(); }
-
-namespace {
-
-void check_count(std::size_t given, std::size_t runs, const char* what) {
-    if (given > 0 && given != runs)
-        throw InputError(fmt::format("there are {} {} for {} environments", given, what, runs));
-}
-
-}  // namespace
 
 void AgentPool::reset(std::span<const std::optional<std::uint64_t>> seeds, std::span<const Pose2> starts,
                       std::span<const bool> mask, std::span<float> observations) {
