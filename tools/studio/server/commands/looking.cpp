@@ -1,5 +1,4 @@
 #include <cmath>
-#include <ranges>
 
 #include <fmt/format.h>
 #include <forage/system.h>
@@ -77,7 +76,9 @@ json list_synapses(Session& s, const Request& r) {
 
 json list_trials(Session& s, const Request& r) {
     json out = json::array();
-    for (const Trial& t : world_of(s.run()).trials(find_robot(s, r)) | std::views::drop(r.whole("from"))) {
+    const auto& all = world_of(s.run()).trials(find_robot(s, r));
+    for (std::size_t i = r.whole("from"); i < all.size(); ++i) {
+        const Trial& t = all[i];
         json row = {{"number", t.number},
                     {"seconds", static_cast<double>(t.cycles) * s.run().seconds_per_cycle()},
                     {"first_cycle", t.first_cycle},
