@@ -33,7 +33,7 @@ compiles new types of neurons, synapses and modules, and CMake finds the
 package Forage, with which programs run systems and robots.")
 set(CPACK_DEBIAN_DEV_PACKAGE_DEPENDS "forage ${same}, g++ | clang, libeigen3-dev")
 set(CPACK_DEBIAN_DEV_PACKAGE_RECOMMENDS "cmake, make | ninja-build")
-set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "libfmt-dev, libtinyxml2-dev, libbullet-dev, libopencv-core-dev, libopencv-imgproc-dev, libpng-dev, libcairo2-dev, libgif-dev, zlib1g-dev, libhdf5-dev, libssl-dev, libzip-dev, pkg-config")
+set(CPACK_DEBIAN_DEV_PACKAGE_SUGGESTS "libfmt-dev, libtinyxml2-dev, libbullet-dev, libopencv-core-dev, libopencv-imgproc-dev, libpng-dev, libcairo2-dev, libgif-dev, zlib1g-dev, libhdf5-dev, libmd-dev, libzip-dev, pkg-config")
 
 set(CPACK_DEBIAN_DOC_PACKAGE_NAME forage-doc)
 set(CPACK_DEBIAN_DOC_PACKAGE_SECTION doc)

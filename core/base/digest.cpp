@@ -3,33 +3,11 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
-#include <memory>
-#include <vector>
 
 #include <fmt/format.h>
-#include <openssl/evp.h>
+#include <sha2.h>
 
 namespace forage {
-namespace {
-
-class Sha256 {
-  public:
-    Sha256() { EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr); }
-    void add(std::string_view text) { EVP_DigestUpdate(context_.get(), text.data(), text.size()); }
-    std::string text() {
-        std::array<unsigned char, 32> bytes{};
-        EVP_DigestFinal_ex(context_.get(), bytes.data(), nullptr);
-        std::string out;
-        for (const unsigned char byte : bytes) out += fmt::format("{:02x}", byte);
-        return out;
-    }
-
-  private:
-    std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_{EVP_MD_CTX_new(), EVP_MD_CTX_free};
-};
-
-}  // namespace
 
 std::string digest(std::string_view text) {
     std::uint64_t hash = 0xcbf29ce484222325u;
@@ -38,21 +16,16 @@ std::string digest(std::string_view text) {
 }
 
 std::string sha256(std::string_view text) {
-    Sha256 sum;
-    sum.add(text);
-    return sum.text();
+    std::array<char, SHA256_DIGEST_STRING_LENGTH> out{};
+    SHA256Data(reinterpret_cast<const std::uint8_t*>(text.data()), text.size(), out.data());
+    return out.data();
 }
 
 std::string file_digest(const std::string& path) {
-    Sha256 sum;
+    std::array<char, SHA256_DIGEST_STRING_LENGTH> out{};
     std::error_code none;  // the content of a pipe cannot be read again
-    if (!std::filesystem::is_regular_file(path, none)) return sum.text();
-    std::ifstream in(path, std::ios::binary);
-    for (std::vector<char> block(std::size_t{1} << 18); in;) {
-        in.read(block.data(), static_cast<std::streamsize>(block.size()));
-        sum.add({block.data(), static_cast<std::size_t>(in.gcount())});
-    }
-    return sum.text();
+    const bool read = std::filesystem::is_regular_file(path, none) && SHA256File(path.c_str(), out.data());
+    return read ? out.data() : sha256("");
 }
 
 }  // namespace forage

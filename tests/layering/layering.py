@@ -114,7 +114,7 @@ OWNED = [
     (r'tinyxml2\.h', {'core/xml'}),
     (r'Random123/', {'core/base'}),
     (r'(hdf5|H5\w*)(_hl)?\.h|zip\.h', {'core/observe'}),
-    (r'openssl/', {'core/base'}),
+    (r'(sha2\.h|fast_float/)', {'core/base'}),
     (r'cairo', {'tools/plot'}),
     (r'boost/', {'tools/studio/server'}),
     (r'(bullet/|bt[A-Z]\w*\.h|Bullet\w*/|LinearMath/|opencv2?/|png\.h)', {'bug_interface'}),
