@@ -83,6 +83,11 @@ class Archive {
   private:
     static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
 
+    /// Sizes of a machine of 32 bits are written as those of others, so that digests are equal.
+    template <class T>
+    static constexpr bool narrow = sizeof(T) < 8 &&
+                                   (std::is_same_v<T, std::size_t> || std::is_same_v<T, std::ptrdiff_t>);
+
     /// Replaces every NaN among the `count` numbers that were written last.
     template <class T>
     void write_same_nan(const T* first, std::size_t count) {
@@ -114,6 +119,10 @@ class Archive {
             auto byte = static_cast<std::uint8_t>(v);
             numbers(&byte, 1);
             v = byte != 0;
+        } else if constexpr (narrow<T>) {
+            auto wide = static_cast<std::int64_t>(v);
+            numbers(&wide, 1);
+            v = static_cast<T>(wide);
         } else if constexpr (std::is_base_of_v<Eigen::PlainObjectBase<T>, T>) {
             matrix(v);
         } else {
@@ -126,7 +135,7 @@ class Archive {
     void elements(T& all) {
         using Element = typename T::value_type;
         all.resize(count(all.size()));
-        if constexpr (std::is_arithmetic_v<Element> && requires { all.data(); })
+        if constexpr (std::is_arithmetic_v<Element> && !narrow<Element> && requires { all.data(); })
             numbers(all.data(), all.size());
         else
             for (auto& v : all) value(v);
