@@ -9,7 +9,7 @@ namespace forage {
 bool out_of_range(std::string_view word) {
     double value = 0;
     const char* const last = word.data() + word.size();
-    const auto [end, error] = std::from_chars(word.data(), last, value);
+    const auto [end, error] = from_chars(word.data(), last, value);
     return end == last && error == std::errc::result_out_of_range;
 }
 

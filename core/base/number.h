@@ -3,12 +3,29 @@
 
 #include <charconv>
 #include <cmath>
+#include <concepts>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
+#ifndef __cpp_lib_to_chars  // libc++ reads no floating-point numbers
+#include <fast_float/fast_float.h>
+#endif
+
 namespace forage {
+
+#ifdef __cpp_lib_to_chars
+using std::from_chars;
+#else
+inline auto from_chars(const char* first, const char* last, double& value) {
+    return fast_float::from_chars(first, last, value);
+}
+template <std::integral N>
+auto from_chars(const char* first, const char* last, N& value) {
+    return std::from_chars(first, last, value);
+}
+#endif
 
 /// Removes the number at the front of `text` and returns it. Numbers are in C notation, whatever the locale,
 /// with or without a sign; `nan` and `inf` are numbers, too. Returns nothing and leaves `text` unchanged when
@@ -17,7 +34,7 @@ template <class N>
 std::optional<N> take_number(std::string_view& text) {
     N value{};
     const std::size_t sign = text.starts_with('+') && !text.starts_with("+-") ? 1 : 0;
-    const auto [end, error] = std::from_chars(text.data() + sign, text.data() + text.size(), value);
+    const auto [end, error] = from_chars(text.data() + sign, text.data() + text.size(), value);
     if (error != std::errc{}) return std::nullopt;
     text.remove_prefix(static_cast<std::size_t>(end - text.data()));
     return value;
