@@ -61,8 +61,8 @@ std::string Shard::name() const { return fmt::format("{}-of-{}", number, of); }
 std::optional<Shard> parse_shard(const std::string& text) {
     const auto slash = text.find('/');
     if (slash == std::string::npos) return std::nullopt;
-    const auto number = parse_number<std::uint64_t>(text.substr(0, slash)),
-               of = parse_number<std::uint64_t>(text.substr(slash + 1));
+    const auto number = parse_number<std::size_t>(text.substr(0, slash)),
+               of = parse_number<std::size_t>(text.substr(slash + 1));
     if (!number || !of || *number < 1 || *number > *of) return std::nullopt;
     return Shard{*number, *of};
 }
