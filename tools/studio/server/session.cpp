@@ -161,8 +161,8 @@ json Session::world_message() {
     const auto* world = dynamic_cast<const bug::World*>(live.run->environment());
     if (!world) return {{"type", "world"}, {"file", nullptr}};
     json out = describe_world(*world);
-    out["picture"] = fmt::format("/picture?what=world&format=png&epoch={}&of={}&key={}", live.epoch,
-                                 edited.generation, picture_key);
+    const auto version = fmt::format("{}-{}", live.epoch, edited.generation);
+    out["picture"] = picture_address ? picture_address(version) : "";
     return out;
 }
 
