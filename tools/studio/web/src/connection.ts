@@ -16,6 +16,17 @@ interface ConnectionEvents {
   refused(why: string): void;
 }
 
+/** What a connection needs of a WebSocket. */
+export interface Socket {
+  binaryType: string;
+  readonly readyState: number;
+  onopen: (() => void) | null;
+  onmessage: ((event: { data: unknown }) => void) | null;
+  onclose: ((event: { code: number; reason: string }) => void) | null;
+  send(text: string): void;
+  close(): void;
+}
+
 /** The secret of a page, which the server exchanges for one that stays valid. */
 interface Token {
   get(): string | null;
@@ -46,7 +57,7 @@ export type Arguments<C extends CommandName> = {} extends Commands[C]['arguments
 type Waiting = { resolve(result: unknown): void; reject(error: Error): void };
 
 export class Connection {
-  private socket: WebSocket | null = null;
+  private socket: Socket | null = null;
   private nextId = 1;
   private waiting = new Map<number, Waiting>();
   private arrived: Frame[] = [];
@@ -55,7 +66,7 @@ export class Connection {
   private closed = false;
 
   constructor(
-    private readonly url: string,
+    private readonly connect: () => Socket,
     private readonly token: Token,
     private readonly events: ConnectionEvents,
     private readonly schedule: (draw: () => void) => void = (draw) => requestAnimationFrame(draw),
@@ -63,7 +74,7 @@ export class Connection {
 
   open(): void {
     this.events.link('connecting');
-    const socket = new WebSocket(this.url);
+    const socket = this.connect();
     socket.binaryType = 'arraybuffer';
     this.socket = socket;
     socket.onopen = () => socket.send(JSON.stringify({ token: this.token.get() }));

@@ -1,5 +1,5 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from 'vitest';
-import { CommandError, Connection } from '../../src/connection';
+import { CommandError, Connection, type Socket } from '../../src/connection';
 import { makeFrame } from './make_frame';
 
 class FakeSocket {
@@ -34,7 +34,7 @@ function connected() {
   const events = { link: vi.fn(), message: vi.fn(), frames: vi.fn(), fault: vi.fn(), refused: vi.fn() };
   let secret = 'once';
   const token = { get: () => secret, set: (other: string) => void (secret = other) };
-  const connection = new Connection('ws://x/ws', token, events, (draw) => void draws.push(draw));
+  const connection = new Connection(() => new WebSocket('ws://x/ws') as Socket, token, events, (draw) => void draws.push(draw));
   connection.open();
   const socket = FakeSocket.made[0]!;
   socket.open();
