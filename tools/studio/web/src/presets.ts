@@ -31,8 +31,9 @@ export function applyPreset(preset: Preset): void {
 // The tutorial as its button closed it: it opens again at the part that was read.
 let tutorial: PanelState = { kind: 'tutorial' };
 
-/** Opens the tutorial at the left, or below on a small window. */
-export function openTutorial(): void {
+/** Opens the tutorial at the left, or below on a small window: at a part of it, or where it was. */
+export function openTutorial(page?: string): void {
+  if (page) tutorial = { kind: 'tutorial', page } as PanelState;
   // It takes the place of the tree, and on a middling window that of the inspector.
   frame.tree = false;
   if (innerWidth < 1500) frame.inspector = false;
