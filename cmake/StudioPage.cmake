@@ -1,9 +1,15 @@
 # Builds the page of the studio with Node, and makes the source file that holds it: run by the build as
 #   cmake -DWEB=tools/studio/web -DTUTORIAL=docs/tutorial -DWORK=folder -DNPM=npm -DSTRICT=ON -DOUTPUT=assets.cpp -DDONE=assets.done -P StudioPage.cmake
+# With -DSITE=folder instead of OUTPUT and DONE, it makes the page for browsers only, whose session runs in a worker (tools/web), in that folder.
 # Without NPM, or when npm fails and STRICT is off, the page only says how to build it. The file DONE is missing when npm failed, so
 # that the next build tries again.
 set(page "")
-file(REMOVE ${DONE})
+set(mode production)
+if(SITE)
+  set(mode web)
+else()
+  file(REMOVE ${DONE})
+endif()
 if(NPM)
   file(REMOVE_RECURSE ${WORK}/web/src ${WORK}/web/tests ${WORK}/web/tutorial)  # files that are no longer there
   file(COPY ${WEB}/ DESTINATION ${WORK}/web PATTERN node_modules EXCLUDE PATTERN dist EXCLUDE)
@@ -18,7 +24,7 @@ if(NPM)
   endif()
   if(status EQUAL 0)
     file(REMOVE_RECURSE ${WORK}/web/dist)
-    execute_process(COMMAND ${CMAKE_COMMAND} -E env FORAGE_TUTORIAL=${TUTORIAL} ${NPM} run build --silent WORKING_DIRECTORY ${WORK}/web RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE out)
+    execute_process(COMMAND ${CMAKE_COMMAND} -E env FORAGE_TUTORIAL=${TUTORIAL} ${NPM} run build --silent -- --mode ${mode} WORKING_DIRECTORY ${WORK}/web RESULT_VARIABLE status OUTPUT_VARIABLE out ERROR_VARIABLE out)
   endif()
   if(status EQUAL 0)
     set(page ${WORK}/web/dist)
@@ -27,6 +33,11 @@ if(NPM)
   else()
     message("The page of the studio cannot be built (npm failed): the studio only says how to build it. The next build tries again.\n${out}")
   endif()
+endif()
+
+if(SITE)
+  file(COPY ${page}/ DESTINATION ${SITE})
+  return()
 endif()
 
 set(folder ${page})

@@ -1,5 +1,6 @@
 // Connects the server with the stores. Everything that changes a run goes through `command`.
-import { CommandError, Connection, type Arguments, type CommandName, type Result } from './connection';
+import { inBrowser, workerSocket } from './browser/socket';
+import { CommandError, Connection, type Arguments, type CommandName, type Result, type Socket } from './connection';
 import { protocolVersion, type ServerMessage, type SystemMessage } from './protocol/messages';
 import type { Frame } from './protocol/frame';
 import { editing } from './edit/document.svelte';
@@ -13,7 +14,11 @@ import { selection } from './stores/selection.svelte';
 import { run } from './stores/run.svelte';
 import { Streams } from './streams';
 
-const socketUrl = `${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`;
+/** A socket to the server of this page, or in a page without a server to a session in a worker. */
+function connect(): Socket {
+  if (inBrowser) return workerSocket((text) => actions.notify('error', text));
+  return new WebSocket(`${location.protocol === 'https:' ? 'wss' : 'ws'}://${location.host}/ws`) as Socket;
+}
 
 /** The secret of this page. It outlives a reload, and nothing else than this address in this tab has it. */
 const token = {
@@ -23,7 +28,7 @@ const token = {
 
 // Whether the connection was lost since the last message of the system.
 let lost = false;
-const connection = new Connection(socketUrl, token, {
+const connection = new Connection(connect, token, {
   link(state) {
     run.link = state;
     if (state !== 'open') lost = true;

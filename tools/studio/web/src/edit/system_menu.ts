@@ -1,4 +1,6 @@
 // The menu of the system, which the finder lists, too.
+import { addFiles, copyLink, downloadSystem } from '../browser/files';
+import { inBrowser } from '../browser/socket';
 import { dialogs } from '../parts/dialogs.svelte';
 import { dock } from '../stores/dock.svelte';
 import { model } from '../stores/model.svelte';
@@ -19,6 +21,14 @@ export function systemMenu(): Entries {
     { label: 'Save', keys: 'Ctrl S', disabled: !editing.dirty && editing.file !== '' && !editing.backupOf, act: save },
     { label: 'Save as…', keys: 'Ctrl Shift S', act: () => fileDialog.open('save as') },
     { label: 'Save a backup', keys: 'Ctrl B', disabled: !editing.file || editing.shipped, act: backup },
+    ...(inBrowser
+      ? [
+        null,
+        { label: 'Download', name: 'Download the system', act: downloadSystem },
+        { label: 'Add files…', name: 'Add files of this computer', act: addFiles },
+        { label: 'Copy a link', name: 'Copy a link to this system', act: copyLink },
+      ]
+      : []),
     null,
     { label: 'Add a part…', act: () => palette.open([20, 20]) },
     { label: 'Import a process…', act: () => fileDialog.open('import') },
@@ -38,6 +48,6 @@ export function systemMenu(): Entries {
     null,
     { label: 'Settings…', act: () => (dialogs.shown = 'settings') },
     { label: 'About Forage', act: () => (dialogs.shown = 'about') },
-    { label: 'Quit…', act: quit },
+    ...(inBrowser ? [] : [{ label: 'Quit…', act: quit }]),
   ];
 }

@@ -1,0 +1,55 @@
+// Files between the page and the computer, where the session runs in this browser: systems come and go as files and as links.
+import { actions } from '../stores/actions.svelte';
+import { model } from '../stores/model.svelte';
+import { command } from '../studio';
+import { baseName, editing, sendAll } from '../edit/document.svelte';
+import { worldFile } from '../edit/world.svelte';
+import { download as save } from '../draw/save';
+import { fragmentOf } from './link';
+import { addFile, readFile } from './socket';
+
+const shipped = '/forage/systems/worlds/';
+const name = () => (baseName(editing.file) || `${model.system?.name || 'system'}.iqr`).replace(/\.iqr$/, '');
+
+async function systemText(): Promise<string | undefined> {
+  await sendAll();
+  return (await command('document'))?.text;
+}
+
+/** Saves the system as it is now on the computer. */
+export async function downloadSystem(): Promise<void> {
+  const text = await systemText();
+  if (text !== undefined) save(`${name()}.iqr`, 'application/xml', text);
+}
+
+/** Saves a file that this browser keeps, such as a recording, on the computer. */
+export async function downloadFile(path: string): Promise<void> {
+  try {
+    save(baseName(path), 'application/octet-stream', new Blob([(await readFile(path)) as BlobPart]));
+  } catch (error) {
+    actions.notify('error', (error as Error).message);
+  }
+}
+
+/** Puts files of the computer beside those that this browser keeps; the menu opens them. */
+export function addFiles(): void {
+  const input = document.createElement('input');
+  input.type = 'file';
+  input.multiple = true;
+  input.onchange = async () => {
+    for (const file of input.files ?? []) actions.notify('info', `${file.name} is ${baseName(await addFile(file))} here; open it from the menu.`);
+  };
+  input.click();
+}
+
+/** Copies an address that holds the system and its world. */
+export async function copyLink(): Promise<void> {
+  const system = await systemText();
+  if (system === undefined) return;
+  if (worldFile.dirty) return actions.notify('error', 'Save the world first: the link holds its file.');
+  const world = model.world?.file ?? '', text = world && !world.startsWith(shipped) ? new TextDecoder().decode(await readFile(world)) : undefined;
+  const address = `${location.origin}${location.pathname}#${await fragmentOf({ name: name(), system, world, worldText: text })}`;
+  await navigator.clipboard.writeText(address);
+  const long = address.length > 30_000 ? ' It is long: some programs cut such links. A file is safer.' : '';
+  actions.notify('info', `The link is copied (${address.length} letters). Whoever opens it sees this system.${long}`);
+}

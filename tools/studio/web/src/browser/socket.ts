@@ -1,0 +1,77 @@
+// What takes the place of a server where the session runs in this browser: a worker that gets and posts the same messages.
+import type { Socket } from '../connection';
+import { linkedIn } from './link';
+
+/** What the page asks of the worker, beside messages for the session. */
+export type Wish = { open: { system: string; world: string; files: Record<string, string> } } | { hidden: boolean } | { read: string } | { write: string; bytes: ArrayBuffer };
+/** What the worker answers, beside messages of the session. */
+export type Answer = { failed: string } | { note: string } | { content: Uint8Array | string };
+
+/** Whether the session runs in this browser. */
+export const inBrowser = import.meta.env.MODE === 'web';
+
+const shipped = '/forage/systems/';
+let worker: Worker;
+let answered: (content: Uint8Array | string) => void = () => {};
+
+/** The system and the world that the address of the page names, or that are in its link. */
+async function asked(): Promise<Wish> {
+  const linked = await linkedIn(location.hash);
+  if (linked) {
+    const system = `/link/${linked.name.replace(/[^\w .-]/g, '_') || 'system'}.iqr`, world = linked.worldText ? '/link/linked.world' : linked.world;
+    return { open: { system, world, files: { [system]: linked.system, ...(linked.worldText ? { [world]: linked.worldText } : {}) } } };
+  }
+  const given = new URLSearchParams(location.search), system = given.get('system') ?? 'dac_foraging.iqr', world = given.get('world') ?? (given.has('system') ? '' : 'basic_arena.world');
+  return { open: { system: shipped + system, world: world && `${shipped}worlds/${world}`, files: {} } };
+}
+
+/** A socket to a worker with a session. `note` tells the user something. */
+export function workerSocket(note: (text: string) => void): Socket {
+  worker = new Worker('assets/worker.js', { type: 'module' });
+  let state: number = WebSocket.CONNECTING;
+  const socket: Socket = {
+    binaryType: 'arraybuffer',
+    get readyState() {
+      return state;
+    },
+    onopen: null,
+    onmessage: null,
+    onclose: null,
+    send(text) {
+      if (text.startsWith('{"token"')) socket.onmessage?.({ data: '{"type":"welcome","token":""}' });
+      else worker.postMessage(text);
+    },
+    close: () => worker.terminate(),
+  };
+  const fail = (reason: string) => socket.onclose?.({ code: 1008, reason });
+  worker.onmessage = ({ data }: MessageEvent<string | ArrayBuffer | Answer>) => {
+    if (typeof data === 'object' && 'failed' in data) return fail(data.failed);
+    if (typeof data === 'object' && 'note' in data) return note(data.note);
+    if (typeof data === 'object' && 'content' in data) return answered(data.content);
+    if (state !== WebSocket.OPEN) {
+      state = WebSocket.OPEN;
+      socket.onopen?.();
+    }
+    socket.onmessage?.({ data });
+  };
+  worker.onerror = (event) => fail(`The simulator cannot be loaded: ${event.message}`);
+  document.addEventListener('visibilitychange', () => worker.postMessage({ hidden: document.hidden }));
+  asked().then((wish) => worker.postMessage(wish), (error: Error) => fail(error.message));
+  return socket;
+}
+
+const ask = (wish: Wish): Promise<Uint8Array | string> =>
+  new Promise((resolve) => {
+    answered = resolve;
+    worker.postMessage(wish);
+  });
+
+/** The content of a file that this browser keeps. */
+export async function readFile(path: string): Promise<Uint8Array> {
+  const content = await ask({ read: path });
+  if (typeof content === 'string') throw new Error(content);
+  return content;
+}
+
+/** Keeps a file in this browser, below the name that it has, or below one with a number when there is such a file. Returns its name. */
+export const addFile = async (file: File): Promise<string> => (await ask({ write: file.name, bytes: await file.arrayBuffer() })) as string;

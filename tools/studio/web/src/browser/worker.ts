@@ -1,0 +1,94 @@
+// The session of a studio without a server. It gets and posts the same messages as a server (socket.ts).
+import type { Answer, Wish } from './socket';
+
+interface Engine {
+  ccall(name: string, result: 'string' | 'number' | null, types: 'string'[], values: string[]): unknown;
+  FS: {
+    mkdirTree(path: string): void;
+    mount(kind: unknown, options: { autoPersist: boolean }, path: string): void;
+    syncfs(load: boolean, done: (error: unknown) => void): void;
+    chdir(path: string): void;
+    readFile(path: string): Uint8Array;
+    writeFile(path: string, content: string | Uint8Array): void;
+    analyzePath(path: string): { exists: boolean };
+  };
+  IDBFS: unknown;
+}
+
+const home = '/home/web_user';
+const post = (answer: Answer) => postMessage(answer);
+
+/** Whether this is the tab that keeps files: two at a time would write over each other. */
+function first(): Promise<boolean> {
+  return new Promise((resolve) => void navigator.locks.request('forage', { ifAvailable: true }, (lock) => {
+    resolve(lock !== null);
+    return lock && new Promise(() => {}); // until the tab is closed
+  }));
+}
+
+/** Loads the simulator, and the files that this browser keeps of the user. */
+async function load(): Promise<Engine> {
+  const from = new URL('../forage-web.mjs', self.location.href);
+  const { default: create } = (await import(/* @vite-ignore */ from.href)) as { default(options: object): Promise<Engine> };
+  const [engine, keeps] = await Promise.all([create({ locateFile: (name: string) => new URL(name, from).href }), first()]);
+  engine.FS.mkdirTree(home);
+  let failed: unknown = 'another tab of this browser keeps the files of the studio';
+  if (keeps) {
+    engine.FS.mount(engine.IDBFS, { autoPersist: true }, home);
+    failed = await new Promise((resolve) => engine.FS.syncfs(true, resolve));
+  }
+  if (failed) post({ note: `What you save is lost with this tab: ${String(failed)}. Download it.` });
+  engine.FS.chdir(home);
+  return engine;
+}
+
+const loading = load();
+let engine: Engine | null = null;
+let hidden = false;
+let timer: ReturnType<typeof setTimeout> | undefined;
+const soon = new MessageChannel();
+soon.port1.onmessage = work;
+
+/** Runs the cycles that are due, and comes again when more are: after the messages that wait, or later. A page that is hidden costs nothing. */
+function work(): void {
+  clearTimeout(timer);
+  if (!engine || hidden) return;
+  const seconds = engine.ccall('forage_work', 'number', [], []) as number;
+  if (seconds <= 0) soon.port2.postMessage(null);
+  else if (seconds < 3600) timer = setTimeout(work, seconds * 1000);
+}
+
+async function open({ system, world, files }: Extract<Wish, { open: unknown }>['open']): Promise<void> {
+  const loaded = await loading;
+  loaded.FS.mkdirTree('/link');
+  for (const [path, text] of Object.entries(files)) loaded.FS.writeFile(path, text);
+  const wrong = loaded.ccall('forage_open', 'string', ['string', 'string'], [system, world]) as string;
+  if (wrong) throw new Error(wrong);
+  engine = loaded;
+  work();
+}
+
+function read(path: string): Uint8Array | string {
+  try {
+    return engine!.FS.readFile(path);
+  } catch {
+    return `there is no file '${path}'`;
+  }
+}
+
+function write(name: string, bytes: ArrayBuffer): string {
+  const [, stem = '', ending = ''] = /^(.*?)(\.[^.]*)?$/.exec(name.replace(/[/\0]/g, '_'))!;
+  let path = `${home}/${stem}${ending}`;
+  for (let n = 2; engine!.FS.analyzePath(path).exists; ++n) path = `${home}/${stem} ${n}${ending}`;
+  engine!.FS.writeFile(path, new Uint8Array(bytes));
+  return path;
+}
+
+self.onmessage = ({ data }: MessageEvent<Wish | string>) => {
+  if (typeof data === 'string') engine?.ccall('forage_receive', null, ['string'], [data]);
+  else if ('open' in data) return void open(data.open).catch((error: Error) => post({ failed: error.message }));
+  else if ('hidden' in data) hidden = data.hidden;
+  else if ('read' in data) post({ content: read(data.read) });
+  else post({ content: write(data.write, data.bytes) });
+  work();
+};
