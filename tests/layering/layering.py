@@ -106,6 +106,7 @@ ALLOWED['tools/studio/server'] = {
     'tools/api/describe',
     'tools/api/edit',
 }
+ALLOWED['tools/studio/wasm'] = {'core/run', 'tools/studio/server'}
 ALLOWED['tools'].add('tools/studio/server')
 ROOMS = set(ALLOWED)
 
@@ -117,6 +118,7 @@ OWNED = [
     (r'(sha2\.h|fast_float/)', {'core/base'}),
     (r'cairo', {'tools/plot'}),
     (r'boost/', {'tools/studio/server'}),
+    (r'emscripten', {'tools/studio/wasm'}),
     (r'(bullet/|bt[A-Z]\w*\.h|Bullet\w*/|LinearMath/|opencv2?/|png\.h)', {'bug_interface'}),
 ]
 
