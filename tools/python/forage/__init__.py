@@ -82,13 +82,22 @@ __all__ = [
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from ._experiment import Table, experiment, sweep
     from ._optimise import Optimum, optimise
     from ._types import Cells, Plugin, Ports, Synapses, TypeInfo, build_plugin, feedback, input, module, neuron, output, parameter, state, synapse, types
 
+    SYSTEMS: Path
+    """The folder of the systems and worlds that come with Forage."""
+
 
 def __getattr__(name):
-    """Imports what needs NumPy when it is used."""
+    """Imports what needs NumPy, or takes time, when it is used."""
+    if name == "SYSTEMS":
+        import pathlib
+
+        return pathlib.Path(_forage._systems)
     if name in _EXPERIMENT:
         from . import _experiment as place
     elif name in _OPTIMISE:

@@ -25,6 +25,7 @@ _Type = typing.Union[str, type]
 _Of = typing.Union[str, System.Group]
 
 __version__: str
+_systems: str
 
 def open(
     system: typing.Union[_Path, System],
