@@ -1,4 +1,5 @@
 """Environments for learning agents: the contracts of Gymnasium and PettingZoo, and that they act and sense as brains do."""
+import json
 import os
 import signal
 import subprocess
@@ -12,7 +13,7 @@ from hypothesis import strategies as st
 
 import forage
 from conftest import SYSTEMS, WORLD
-from forage.gym import BugEnv, BugParallelEnv, BugVectorEnv
+from forage.gym import BugEnv, BugParallelEnv, BugVectorEnv, save_rollouts
 
 DAC = SYSTEMS / "dac_foraging.iqr"
 TWO = SYSTEMS / "worlds/two_bugs.world"
@@ -522,3 +523,29 @@ def test_the_checker_of_gymnasium_finds_nothing(options):
 def test_the_test_of_pettingzoo_finds_nothing():
     tests = pytest.importorskip("pettingzoo.test")
     tests.parallel_api_test(BugParallelEnv(TWO, max_steps=50), num_cycles=200)
+
+
+def test_rollouts_have_the_layout_of_minari(tmp_path):
+    h5py = pytest.importorskip("h5py")
+    env = BugEnv(WORLD, max_steps=20)
+    file = save_rollouts(tmp_path / "ahead-v0", env, lambda light: AHEAD, episodes=3, seed=5)
+    assert file == tmp_path / "ahead-v0/data/main_data.hdf5"
+    expected, _ = env.reset(seed=5)
+    with h5py.File(file) as data:
+        assert list(data) == ["episode_0", "episode_1", "episode_2"]
+        first, steps = data["episode_0"], [int(episode.attrs["total_steps"]) for episode in data.values()]
+        assert first.attrs["seed"] == 5 and "seed" not in data["episode_1"].attrs and first.attrs["id"] == 0
+        assert first["observations"].shape == (steps[0] + 1, 32) and (first["observations"][0] == expected).all()
+        assert first["actions"][:].tolist() == [AHEAD] * steps[0] and first["rewards"].shape == (steps[0],)
+        assert first["terminations"][-1] != first["truncations"][-1] and not first["terminations"][:-1].any()
+    metadata = json.loads((file.parent / "metadata.json").read_text())
+    assert (metadata["total_episodes"], metadata["total_steps"], metadata["data_format"]) == (3, sum(steps), "hdf5")
+    assert json.loads(metadata["action_space"]) == {"type": "Discrete", "dtype": "int64", "start": 0, "n": 9}
+    assert json.loads(metadata["observation_space"])["shape"] == [32]
+    with pytest.raises(forage.InputError, match="exists"):
+        save_rollouts(tmp_path / "ahead-v0", env, lambda light: AHEAD, episodes=1)
+    with pytest.raises(forage.InputError, match="at least one"):
+        save_rollouts(tmp_path / "none", env, lambda light: AHEAD, episodes=0)
+    with pytest.raises(ZeroDivisionError):
+        save_rollouts(tmp_path / "broken", env, lambda light: 1 // 0, episodes=1)
+    assert [path.name for path in tmp_path.iterdir()] == ["ahead-v0"]

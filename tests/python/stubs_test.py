@@ -49,7 +49,10 @@ print(table["act"], table.to_pandas(), where)
 """
 
 
-MODULES = [PROJECT / f"tools/python/forage/{name}.py" for name in ("_errors", "_experiment", "_optimise", "_picture", "_recording", "_types", "gym")]
+MODULES = [
+    PROJECT / f"tools/python/forage/{name}.py"
+    for name in ("_errors", "_experiment", "_optimise", "_picture", "_recording", "_rollouts", "_types", "demo", "gym")
+]
 
 
 @pytest.fixture(scope="module")

@@ -19,6 +19,7 @@ import numpy
 
 from . import _forage
 from ._errors import InputError, RunError
+from ._rollouts import save_rollouts
 
 try:
     from gymnasium import Env, spaces
@@ -37,7 +38,7 @@ try:
 except ImportError:
     from ._spaces import ParallelEnv
 
-__all__ = ["BugEnv", "BugParallelEnv", "BugVectorEnv"]
+__all__ = ["BugEnv", "BugParallelEnv", "BugVectorEnv", "save_rollouts"]
 
 _Path = typing.Union[str, "os.PathLike[str]"]
 _Ports = typing.Any
