@@ -103,10 +103,9 @@ def on_page_markdown(markdown, page, config, files):
         here = os.path.dirname(page.file.src_path)
         return f"{picture}[{text}]({os.path.relpath(on_site, here or '.')}{part or ''})"
 
-    # Blocks of code are not changed.
-    # What is folded is Markdown, too, but not in the outputs of notebooks.
-    if not source.startswith("docs/notebooks/"):
-        markdown = markdown.replace("<details><summary>", '<details markdown="1">\n<summary markdown="span">')
+    # Blocks of code are not changed. What is folded is Markdown, too, but in the outputs of notebooks only answers are.
+    folded = "<details><summary>" + ("Answer" if source.startswith("docs/notebooks/") else "")
+    markdown = markdown.replace(folded, folded.replace("<details><summary>", '<details markdown="1">\n<summary markdown="span">'))
     if STUDIO:
         markdown = with_exercises(markdown, page)
     pieces = re.split(r"(```.*?```)", markdown, flags=re.DOTALL)
