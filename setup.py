@@ -2,7 +2,8 @@
 
     pip install --no-build-isolation .
 
-The packages that Forage is built with must be there (./tools/setup --tests). CMAKE_ARGS has further options for CMake.
+The packages that Forage is built with must be there (./tools/setup --tests). CMAKE_ARGS has further options for CMake. `./tools/package wheel`
+makes of this a wheel for other machines.
 """
 import os
 import pathlib
@@ -38,6 +39,9 @@ class Build(build_ext):
         target = pathlib.Path(self.get_ext_fullpath(extension.name))
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(next((tree / "python/forage").glob(f"_forage*{target.suffix}")), target)
+        if not self.inplace:
+            systems = target.parent / "share/forage/systems"
+            shutil.copytree(PROJECT / "systems", systems, ignore=shutil.ignore_patterns("__pycache__", "forage-out*"), dirs_exist_ok=True)
 
 
 setup(
