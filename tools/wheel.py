@@ -99,7 +99,8 @@ def platform(files):
 def licences(files, folder):
     """Copies what the distribution says about the licences of the packages that the files are from."""
     folder.mkdir(parents=True)
-    packages = {line.split(":")[0] for file in files for line in output("dpkg", "-S", os.path.realpath(file)).splitlines()}
+    paths = ["*" + os.path.realpath(file).removeprefix("/usr") for file in files]  # some packages say /lib, others /usr/lib
+    packages = {line.split(":")[0] for line in output("dpkg", "-S", *paths).splitlines()}
     for package in sorted({*packages, *HEADERS}):
         text = pathlib.Path("/usr/share/doc", package, "copyright")
         if text.exists():
