@@ -40,11 +40,15 @@ def output(*command):
     return subprocess.run(command, check=True, capture_output=True, text=True).stdout
 
 
+def names_needed(file):
+    """The libraries that a file is linked with, without those of every system."""
+    return [name for name in re.findall(r"NEEDED +(\S+)", output("objdump", "-p", file)) if not SYSTEM.fullmatch(name)]
+
+
 def needed(file):
-    """The libraries that a file is linked with, and where the loader finds them."""
-    names = re.findall(r"NEEDED +(\S+)", output("objdump", "-p", file))
+    """The same with where the loader finds them."""
     found = dict(re.findall(r"(\S+) => (\S+)", output("ldd", file)))
-    return {name: pathlib.Path(found[name]) for name in names if not SYSTEM.fullmatch(name)}
+    return {name: pathlib.Path(found[name]) for name in names_needed(file)}
 
 
 def stub(users, file):
@@ -80,7 +84,11 @@ def bundle(module, folder):
             shutil.copyfile(file, copy)
             subprocess.run(["patchelf", "--set-soname", copy.name, copy], check=True)
         replaced = [word for name in sorted(users[file]) for word in ("--replace-needed", name, new[name])]
-        subprocess.run(["patchelf", *replaced, "--set-rpath", "$ORIGIN/../forage.libs" if copy == module else "$ORIGIN", copy], check=True)
+        if replaced:
+            subprocess.run(["patchelf", *replaced, copy], check=True)  # patchelf 0.14 mixes up names and path when it changes both at once
+        subprocess.run(["patchelf", "--set-rpath", "$ORIGIN/../forage.libs" if copy == module else "$ORIGIN", copy], check=True)
+    if missing := {name for file in [module, *folder.iterdir()] for name in names_needed(file)} - set(new.values()):
+        sys.exit(f"wheel: {', '.join(sorted(missing))} would be taken from the system")
     return [path for path in users if path != module]
 
 
