@@ -28,7 +28,8 @@ def _serialized(space: typing.Any) -> str:
 
 def _episode(env: typing.Any, policy: typing.Callable[[typing.Any], typing.Any], seed: int | None) -> dict[str, typing.Any]:
     observation, _ = env.reset(seed=seed)
-    observations, steps = [observation], []
+    observations = [observation]
+    steps: list[tuple[typing.Any, ...]] = []
     while not steps or not (steps[-1][2] or steps[-1][3]):
         action = policy(observation)
         observation, reward, terminated, truncated, _ = env.step(action)
