@@ -88,12 +88,17 @@ class Parser {
     }
 
     Source source(const Stops& stops) {
-        const bool prefix = take("mean:"), function = !prefix && function_follows("mean", stops);
-        if (function) take("mean"), take("(");
-        Source out = cells_of_column(function && !stops.words ? Stops{")"} : stops);
-        if (function && !take(")")) fail("a ')' is missing", "", at_);
-        out.mean = prefix || function;
-        return out;
+        for (const auto word : reductions) {
+            const bool prefix = take(std::string(word) + ":"),
+                       function = !prefix && function_follows(word, stops);
+            if (!prefix && !function) continue;
+            if (function) take(word), take("(");
+            Source out = cells_of_column(function && !stops.words ? Stops{")"} : stops);
+            if (function && !take(")")) fail("a ')' is missing", "", at_);
+            out.reduction = word;
+            return out;
+        }
+        return cells_of_column(stops);
     }
 
     Quantity quantity() {
@@ -113,7 +118,9 @@ class Parser {
             }
         const std::size_t before = at_;
         out.source = source(in_condition);
-        out.kind = out.source.mean ? Quantity::mean : Quantity::cell;
+        out.kind = out.source.reduction.empty()     ? Quantity::cell
+                   : out.source.reduction == "mean" ? Quantity::mean
+                                                    : Quantity::max;
         for (const auto& [word, kind] : words)
             if (trim(text_.substr(before, at_ - before)) == word) {
                 out.kind = kind;

@@ -91,17 +91,22 @@ struct Piece {
     std::size_t at = 0;  ///< its first byte in the expression, from 0
 };
 
+/// What makes one number of the cells of a source: "max(Process/Group)".
+inline constexpr std::string_view reductions[] = {"mean", "max"};
+
 /// Cells of a column: "Process/Group:state(2..4,1)".
 struct Source {
     Piece column;
-    bool mean = false;  ///< the mean of the cells instead of each of them
+    std::string_view reduction = {};  ///< "mean" or "max" of the cells; empty: each of them
     std::optional<model::Region> cells =
         {};                       ///< empty: all cells; a width or height of 0: an impossible range
     std::string cells_text = {};  ///< "(2..4,1)"
     std::size_t cells_at = 0;     ///< the first byte of `cells_text` in the expression
 
     /// The source in its canonical spelling: "mean:Process/Group:state(2..4,1)".
-    std::string text() const { return (mean ? "mean:" : "") + column.text + cells_text; }
+    std::string text() const {
+        return std::string(reduction) + (reduction.empty() ? "" : ":") + column.text + cells_text;
+    }
 };
 
 /// A number that is constant or changes during a run.

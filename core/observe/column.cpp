@@ -90,7 +90,7 @@ std::optional<ColumnRef> find_column(const engine::Layout& s, const expression::
             }
             if (names_group(inside) || names_group(inside.substr(0, inside.rfind(':')))) {
                 context.error(piece.at, fmt::format("'{}' is not a function of cells here", before),
-                              "sources have mean(...), conditions also sum, min and max");
+                              "sources have mean(...) and max(...), conditions also sum and min");
                 return std::nullopt;
             }
         }

@@ -43,7 +43,7 @@ std::optional<Quantity> resolve(const expression::Quantity& q, const engine::Lay
     }
     if (!out.sees_cells()) return out;
     expression::Source cells = q.source;
-    cells.mean = false;
+    cells.reduction = {};
     if (const auto word = q.source.cells ? "" : meant_time(q.source.column.text);
         !word.empty() && q.kind == Quantity::Kind::cell &&
         model::groups_named(layout.groups, q.source.column.text).empty()) {

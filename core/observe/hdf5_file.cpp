@@ -24,7 +24,7 @@ constexpr std::uint64_t index_space =
 /// "Process/Group:state(1..3,2)" -> "/Process/Group/state(1..3,2)"
 std::string place_of(const Recorded& what) {
     std::string out = what.name;
-    if (what.mean) out = out.substr(out.find(':') + 1) + " mean";
+    if (what.one_number()) out = out.substr(out.find(':') + 1) + " " + std::string(what.reduction);
     out[out.rfind(':')] = '/';
     return "/" + out;
 }
@@ -93,7 +93,8 @@ class Hdf5File final : public RowFile {
 
     void add_source(const Recorded& s) {
         std::vector<hsize_t> row;
-        if (!s.mean) row = {static_cast<hsize_t>(s.cells.height), static_cast<hsize_t>(s.cells.width)};
+        if (!s.one_number())
+            row = {static_cast<hsize_t>(s.cells.height), static_cast<hsize_t>(s.cells.width)};
         sets_.push_back(
             {GrowingSet(file_, place_of(s), H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, row, chunk_), s.size(), {}});
         const hid_t set = sets_.back().set.id();
@@ -140,8 +141,8 @@ void copy_rows(const std::string& from, const RowFileHeader& header, std::uint64
     std::vector<Recording*> sources;
     for (const auto& s : header.sources)
         for (const auto& r : recordings)
-            if (r->what().name == s.name && r->what().mean == s.mean && r->what().size() == s.size() &&
-                r->what().group_id == s.group_id)
+            if (r->what().name == s.name && r->what().reduction == s.reduction &&
+                r->what().size() == s.size() && r->what().group_id == s.group_id)
                 sources.push_back(r.get());
     if (sources.size() != header.sources.size())
         throw std::runtime_error(fmt::format("'{}' is not the recording of this run", from));

@@ -95,12 +95,12 @@ class Hdf5Recording final : public Recording {
         what_.label = text_attribute(set_, "label");
         what_.group_id = text_attribute(set_, "group_id");
         what_.state = what_.name.substr(what_.name.rfind(':') + 1);
-        what_.mean = shape_.size() == 1;
+        if (shape_.size() == 1) what_.reduction = what_.name.starts_with("max:") ? "max" : "mean";
         what_.numbered = number_attribute(set_, "numbered") != 0;
         what_.cells = {number_attribute(set_, "first_column"),
                        number_attribute(set_, "first_row"),
-                       what_.mean ? 1 : static_cast<int>(shape_.at(2)),
-                       what_.mean ? 1 : static_cast<int>(shape_.at(1)),
+                       what_.one_number() ? 1 : static_cast<int>(shape_.at(2)),
+                       what_.one_number() ? 1 : static_cast<int>(shape_.at(1)),
                        {}};
         for (const int first : {what_.cells.x, what_.cells.y})
             if (first < 0 || static_cast<hsize_t>(first) > max_cells)

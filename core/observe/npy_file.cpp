@@ -25,9 +25,9 @@ std::string npy_head(const std::string& type, std::uint64_t rows) {
 NpyFile::NpyFile(const std::string& path, const Recorded& what, const std::optional<RowFilePosition>& go_on)
     : rows_(go_on ? go_on->rows : 0), file_(path, go_on ? std::optional(go_on->bytes) : std::nullopt) {
     const std::string field = what.state.empty() ? "value" : what.state;
-    type_ = what.mean ? fmt::format("[('cycle', '<u8'), ('{}', '<f8')]", field)
-                      : fmt::format("[('cycle', '<u8'), ('{}', '<f8', ({}, {}))]", field, what.cells.height,
-                                    what.cells.width);
+    type_ = what.one_number() ? fmt::format("[('cycle', '<u8'), ('{}', '<f8')]", field)
+                              : fmt::format("[('cycle', '<u8'), ('{}', '<f8', ({}, {}))]", field,
+                                            what.cells.height, what.cells.width);
     if (!go_on) file_.buffer() = npy_head(type_, 0);
 }
 

@@ -49,11 +49,12 @@ class CsvRecording final : public Recording {
         if (names.size() < 2 || names[0] != "cycle") no_recording(path, "its first column is not 'cycle'");
         const std::size_t columns = names.size() - 1;
         what_.cells = {1, 1, static_cast<int>(columns), 1, {}};
-        what_.mean = names[1] == "mean";
-        if (what_.mean && columns > 1)
-            rows_->fault(names[2], fmt::format("a mean is one column, and here are {}", columns));
+        for (const auto reduction : expression::reductions)
+            if (names[1] == reduction) what_.reduction = reduction;
+        if (what_.one_number() && columns > 1)
+            rows_->fault(names[2], fmt::format("a {} is one column, and here are {}", names[1], columns));
         const auto first = parse_place(names[1]), last = parse_place(names.back());
-        what_.numbered = !what_.mean && !first;
+        what_.numbered = !what_.one_number() && !first;
         if (first) {
             const auto [x, y] = *first;
             const auto width = last ? std::int64_t{last->first} - x + 1 : 0,
@@ -135,9 +136,10 @@ class NpyRecording final : public Recording {
         what_.state = rest.substr(0, std::min(rest.find('\''), rest.size()));
         rest.remove_prefix(what_.state.size());
         known = known && take("', '<f8'");
-        what_.mean = !take(", (");
-        if (!what_.mean) height = take_number<int>(rest), width = take(", ") ? take_number<int>(rest) : 0;
-        known = known && (what_.mean || take(")")) && take(")]") && go_behind("'shape': (");
+        const bool one = !take(", (");
+        if (one) what_.reduction = "mean";  // or the maximum: such a file does not say which
+        if (!one) height = take_number<int>(rest), width = take(", ") ? take_number<int>(rest) : 0;
+        known = known && (one || take(")")) && take(")]") && go_behind("'shape': (");
         if (!known || !(height > 0) || !(width > 0))
             no_recording(path, "its records are not a cycle and numbers");
         if (std::int64_t{*width} * *height > max_cells) no_recording(path, "it has too many cells");

@@ -11,7 +11,6 @@
 namespace forage::observe {
 namespace {
 
-constexpr std::string_view mean_prefix = "mean:";
 constexpr double max_synapses_recorded = 1 << 24;  ///< numbers in a row that recordings are read with
 
 std::string interval(int first, int count) {
@@ -21,7 +20,7 @@ std::string interval(int first, int count) {
 }  // namespace
 
 std::string Recorded::cell_name(std::size_t i) const {
-    if (mean) return "mean";
+    if (one_number()) return std::string(reduction);
     if (numbered) return fmt::format("cell{}", static_cast<std::size_t>(cells.x) + i);
     const int n = static_cast<int>(i);
     return fmt::format("x{}_y{}", cells.x + n % cells.width, cells.y + n / cells.width);
@@ -29,10 +28,10 @@ std::string Recorded::cell_name(std::size_t i) const {
 
 namespace {
 
-/// What a source selects of `what`: its cells, or their mean. Empty when a cell is missing.
+/// What a source selects of `what`: its cells, or one number of them. Empty when a cell is missing.
 std::optional<Recorded> selected(const Recorded& what, const expression::Source& source) {
     Recorded out = what;
-    if (what.mean) return source.cells ? std::nullopt : std::optional(out);
+    if (what.one_number()) return source.cells ? std::nullopt : std::optional(out);
     const model::Region &all = what.cells, r = source.cells.value_or(all);
     const auto within = [](int first, int count, int all_first, int all_count) {
         return count >= 1 && first >= all_first && count <= all_count &&
@@ -42,7 +41,8 @@ std::optional<Recorded> selected(const Recorded& what, const expression::Source&
         return std::nullopt;
     out.cells = r;
     if (source.cells) out.name += fmt::format("({},{})", interval(r.x, r.width), interval(r.y, r.height));
-    if (source.mean) out.mean = true, out.name.insert(0, mean_prefix);
+    if (!source.reduction.empty())
+        out.reduction = source.reduction, out.name.insert(0, std::string(source.reduction) + ":");
     return out;
 }
 
@@ -53,12 +53,35 @@ std::optional<Part> part_of(const Recorded& what, const expression::Source& sour
     if (!found) return std::nullopt;
     Part out{{}, std::move(*found)};
     const model::Region &all = what.cells, &r = out.what.cells;
-    if (what.mean) return out.numbers = {0}, out;
+    if (what.one_number()) return out.numbers = {0}, out;
     for (int y = r.y; y < r.y + r.height; ++y)
         for (int x = r.x; x < r.x + r.width; ++x)
             out.numbers.push_back(static_cast<std::size_t>((y - all.y) * all.width + x - all.x));
     return out;
 }
+
+namespace {
+
+/// The mean or the maximum of numbers; NaN when one of them is NaN, or there is none.
+class Reduced {
+  public:
+    explicit Reduced(std::string_view reduction) : mean_(reduction == "mean") {}
+    void add(double v) {
+        ++count_;
+        if (mean_)
+            number_ += v;
+        else if (count_ == 1 || v > number_ || std::isnan(v))
+            number_ = v;
+    }
+    double number() const { return mean_ || count_ == 0 ? number_ / static_cast<double>(count_) : number_; }
+
+  private:
+    bool mean_;
+    double number_ = 0;
+    std::size_t count_ = 0;
+};
+
+}  // namespace
 
 void Part::take(std::span<const double> row, std::span<double> out) const {
     // Most parts are one piece of the row: then nothing is looked up.
@@ -69,10 +92,10 @@ void Part::take(std::span<const double> row, std::span<double> out) const {
         else
             for (const std::size_t n : numbers) visit(row[n]);
     };
-    if (what.mean && numbers.size() > 1) {
-        double sum = 0;
-        each([&](double v) { sum += v; });
-        out[0] = sum / static_cast<double>(numbers.size());
+    if (what.one_number() && numbers.size() > 1) {
+        Reduced reduced(what.reduction);
+        each([&](double v) { reduced.add(v); });
+        out[0] = reduced.number();
     } else {
         each([to = out.begin()](double v) mutable { *to++ = v; });
     }
@@ -94,12 +117,6 @@ void for_each_synapse(const engine::Simulation& simulation, const ColumnRef& c, 
     }
 }
 
-double mean_of(const std::vector<double>& numbers) {
-    double sum = 0;
-    for (const double v : numbers) sum += v;
-    return sum / static_cast<double>(numbers.size());
-}
-
 }  // namespace
 
 std::vector<double> Source::all(const engine::Simulation& simulation) const {
@@ -115,8 +132,10 @@ std::vector<double> Source::all(const engine::Simulation& simulation) const {
 
 void Source::read(const engine::Simulation& simulation, std::span<double> out) const {
     if (column.connection >= 0) {
-        if (what().mean) {
-            out[0] = mean_of(all(simulation));
+        if (what().one_number()) {
+            Reduced reduced(what().reduction);
+            for (const double v : all(simulation)) reduced.add(v);
+            out[0] = reduced.number();
             return;
         }
         std::ranges::fill(out, std::numeric_limits<double>::quiet_NaN());
@@ -153,7 +172,7 @@ std::optional<Part> find_synapse_part(const engine::Layout& layout, const Column
         return std::nullopt;
     }
     if (const double numbers = double{1} * out->cells.width * out->cells.height;
-        !out->mean && numbers > max_synapses_recorded) {
+        !out->one_number() && numbers > max_synapses_recorded) {
         context.error(
             source.column.at,
             fmt::format("'{}' is a matrix of {:.0f} numbers per cycle", column.name, numbers),

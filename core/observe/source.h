@@ -20,30 +20,32 @@ struct Recorded {
     model::Region cells;                 ///< cells without places are one row
     int group_width = 1;                 ///< columns of the whole group
     bool numbered = false;               ///< whether the cells have no places
-    bool mean = false;                   ///< whether the row is one number, the mean of the cells
+    std::string_view reduction = {};     ///< "mean" or "max": the row is this one number of the cells
     bool synapses = false;               ///< whether it is a matrix of synapses; unknown in files
 
+    bool one_number() const { return !reduction.empty(); }
     std::size_t size() const {
-        return mean ? 1 : static_cast<std::size_t>(cells.width) * static_cast<std::size_t>(cells.height);
+        return one_number() ? 1
+                            : static_cast<std::size_t>(cells.width) * static_cast<std::size_t>(cells.height);
     }
-    /// The name of the i-th number: "x3_y1", "cell3" or "mean".
+    /// The name of the i-th number: "x3_y1", "cell3", "mean" or "max".
     std::string cell_name(std::size_t i) const;
 };
 
-/// Some numbers of a row, or their mean.
+/// Some numbers of a row, or their mean or maximum.
 struct Part {
-    std::vector<std::size_t> numbers;  ///< indices into the row; for a mean, of all numbers in it
+    std::vector<std::size_t> numbers;  ///< indices into the row; for one number of cells, of all of them
     Recorded what;
     /// Copies the numbers of the part from a row; `out` has what.size() numbers.
     void take(std::span<const double> row, std::span<double> out) const;
 };
-/// The part of the rows of `what` that holds the cells of `source`, or their mean. Empty when a cell is
-/// missing.
+/// The part of the rows of `what` that holds the cells of `source`, or one number of them. Empty when a
+/// cell is missing.
 std::optional<Part> part_of(const Recorded& what, const expression::Source& source);
 
-/// Cells of a column, or their mean. The synapses of a connection are cells of a matrix that has a column per
-/// source cell and a row per target cell, both counted from 1. The number is NaN where there is no synapse,
-/// and the sum where several synapses connect the same two cells.
+/// Cells of a column, or one number of them. The synapses of a connection are cells of a matrix that has a
+/// column per source cell and a row per target cell, both counted from 1. The number is NaN where there is no
+/// synapse, and the sum where several synapses connect the same two cells.
 struct Source {
     ColumnRef column;
     Part part;
@@ -64,7 +66,8 @@ std::optional<Source> find_source(const engine::Layout& layout, const expression
 /// The source that `text` names; `what` begins the messages ("--record").
 std::optional<Source> find_source(const engine::Layout& layout, std::string_view text, std::string_view what,
                                   Diagnostics& diagnostics, Location at = {});
-/// The part of a column that holds the cells of `source`, or their mean. Reports cells outside the group.
+/// The part of a column that holds the cells of `source`, or one number of them. Reports cells outside the
+/// group.
 std::optional<Part> find_part(const engine::Layout& layout, const ColumnRef& column,
                               const expression::Source& source, const expression::Context& context);
 

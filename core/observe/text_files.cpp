@@ -38,12 +38,13 @@ SamplerFile::SamplerFile(const std::string& path, const RowFileHeader& header,
     for (const auto& s : header.sources) out += fmt::format("# \"{}\"={}\n", s.group, s.group_id);
     out += "cycle;";
     for (const auto& s : header.sources) {
-        if (s.mean) {
+        if (s.one_number()) {
             const bool range = s.name.ends_with(')');
-            out += fmt::format("{}_{}_{};", s.group_id, s.state, range ? "RangeAverage" : "GroupAverage");
+            out += fmt::format("{}_{}_{}{};", s.group_id, s.state, range ? "Range" : "Group",
+                               s.reduction == "mean" ? "Average" : "Maximum");
         }
         // Cells are numbered by their position in the group, from 0, row by row.
-        for (std::size_t i = 0; !s.mean && i < s.size(); ++i) {
+        for (std::size_t i = 0; !s.one_number() && i < s.size(); ++i) {
             const int n = static_cast<int>(i), width = s.group_width;
             const int x = s.cells.x - 1 + n % s.cells.width, y = s.cells.y - 1 + n / s.cells.width;
             out += fmt::format("{}_{}_{};", s.group_id, s.state, y * width + x);

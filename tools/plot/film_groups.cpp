@@ -19,7 +19,8 @@ double FilmGroups::Group::height() const { return group_name_height + cell * row
 FilmGroups::FilmGroups(std::vector<observe::Source> sources) : sources_(std::move(sources)) {
     for (const auto& s : sources_) {
         const auto& what = s.what();
-        Group g{what.name, what.mean ? 1 : what.cells.width, what.mean ? 1 : what.cells.height};
+        Group g{what.name, what.one_number() ? 1 : what.cells.width,
+                what.one_number() ? 1 : what.cells.height};
         g.cell = std::min({max_group_cell, groups_width / g.columns, max_group_height / g.rows});
         g.values.resize(what.size());
         groups_.push_back(std::move(g));

@@ -33,8 +33,8 @@ RowPlot::RowPlot(PlotSpec spec, const observe::Recorded& what, const model::Syst
             continue;
         }
         const int n = static_cast<int>(i);
-        curves_.emplace_back(what_.mean       ? "mean"
-                             : what_.numbered ? fmt::format("cell {}", what_.cells.x + n)
+        curves_.emplace_back(what_.one_number() ? std::string(what_.reduction)
+                             : what_.numbered   ? fmt::format("cell {}", what_.cells.x + n)
                                               : fmt::format("({}, {})", what_.cells.x + n % what_.cells.width,
                                                             what_.cells.y + n / what_.cells.width));
     }
@@ -122,8 +122,8 @@ SpacePlot RowPlot::space(const PlotContext& context) const {
     p.title = what_.name, p.subtitle = context.run, p.quantity = quantity();
     p.grid = {what_.cells.x,
               what_.cells.y,
-              what_.mean ? 1 : what_.cells.width,
-              what_.mean ? 1 : what_.cells.height,
+              what_.one_number() ? 1 : what_.cells.width,
+              what_.one_number() ? 1 : what_.cells.height,
               what_.numbered,
               what_.synapses};
     p.blocks_across = spec_.blocks_across, p.blocks_down = spec_.blocks_down;

@@ -59,7 +59,7 @@ std::vector<py::ssize_t> shape_of(const GroupShape& g) {
 }
 
 std::vector<py::ssize_t> shape_of(const observe::Recorded& what) {
-    if (what.mean) return {};
+    if (what.one_number()) return {};
     if (what.numbered) return {static_cast<py::ssize_t>(what.size())};
     return {what.cells.height, what.cells.width};
 }

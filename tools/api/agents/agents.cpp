@@ -55,7 +55,7 @@ void check_options(const AgentOptions& options, Diagnostics& diagnostics) {
 }
 
 std::vector<int> shape_of(const observe::Recorded& what) {
-    if (what.mean) return {1};
+    if (what.one_number()) return {1};
     if (what.numbered) return {static_cast<int>(what.size())};
     return {what.cells.height, what.cells.width};
 }
@@ -164,6 +164,7 @@ void AgentRun::open(Run run) {
     throw_errors(diagnostics);
     run_->add(std::make_unique<Driver>(motors_));
     run_->start();
+    observers_ = run_->observers().size();
     for (const auto& [parameter, assignment] : assignments_) run_->set(assignment);
     for (const auto& [connection, weights] : weights_)
         forage::set_weights(*run_, check_weights(*run_, connection, weights));
@@ -248,6 +249,35 @@ void AgentRun::reset(std::optional<std::uint64_t> seed, std::span<const Pose2> s
         agent.trials = world_->trials(agent.robot).size();
         sense(agent);
     }
+}
+
+std::string AgentRun::save() {
+    if (run_->observers().size() != observers_)
+        throw InputError("an environment whose run has probes, manipulations or measures cannot be copied",
+                         "remove them first");
+    Archive out;
+    std::uint64_t seed = run_->seed();
+    out(seed);
+    checkpoint(out);
+    return out.bytes();
+}
+
+void AgentRun::restore(std::string_view state) {
+    Archive in(state);
+    std::uint64_t seed = 0;
+    in(seed);
+    open(restarted(*run_, seed));
+    checkpoint(in);
+}
+
+void AgentRun::checkpoint(Archive& archive) {
+    archive(assignments_, weights_, steps_);
+    for (auto& motor : *motors_) archive(motor.activity);
+    for (auto& agent : agents_) {
+        auto& o = agent.outcome;
+        archive(agent.observation, agent.trials, o.reward, o.terminated, o.truncated, o.reached_target);
+    }
+    run_->checkpoint(archive);
 }
 
 void AgentRun::check_starts(std::span<const Pose2> starts) {

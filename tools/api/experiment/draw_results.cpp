@@ -28,7 +28,7 @@ std::vector<std::string> usual_plots(const Results& results) {
     if (results.recordings.empty() && results.directory.empty()) return {"diagram"};
     for (const auto& r : results.recordings) {
         out.push_back("time:" + r.what.name);
-        if (!r.what.mean && r.what.cells.width > 1 && r.what.cells.height > 1)
+        if (!r.what.one_number() && r.what.cells.width > 1 && r.what.cells.height > 1)
             out.push_back("space:" + r.what.name);
     }
     if (!results.directory.empty() && fs::exists(results.directory + "/trajectory.csv"))
@@ -72,13 +72,13 @@ std::optional<plot::RowPlot> draw_rows(const Results& results, const PlotSpec& s
     if (!entry) {
         PlotSpec inside = spec;  // of "max(Process/Group)"
         if (const auto open = spec.what.find('(');
-            !wanted->mean && open != std::string::npos && spec.what.ends_with(')')) {
+            wanted->reduction.empty() && open != std::string::npos && spec.what.ends_with(')')) {
             inside.what = spec.what.substr(open + 1, spec.what.size() - open - 2);
             if (find_recording(results, inside, *wanted, part)) {
                 diagnostics.error({},
                                   fmt::format("'{}': '{}' is not a function of cells here", spec.text,
                                               spec.what.substr(0, open)),
-                                  "sources have mean(...), conditions also sum, min and max");
+                                  "sources have mean(...) and max(...), conditions also sum and min");
                 return std::nullopt;
             }
         }

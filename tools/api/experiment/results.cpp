@@ -41,7 +41,7 @@ std::vector<ResultFiles::Recording> read_run(const std::string& directory, Resul
 /// Whether a recording is of a connection's synapses: "Name:weight", while a group is "Process/Group".
 bool is_of_synapses(const observe::Recorded& what) {
     const auto end = what.name.rfind(':');
-    return !what.mean && end != std::string::npos && what.name.find('/') > end;
+    return !what.one_number() && end != std::string::npos && what.name.find('/') > end;
 }
 
 /// Opens a recording. A recording of a single source gets its name and label from run.json, as its own format

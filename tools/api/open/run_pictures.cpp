@@ -28,7 +28,7 @@ const MemoryRecorder* find_recorder(const Run& run, const observe::Recorded& wan
         const auto& what = recorder->what();
         if (what.name == wanted.name)
             part = observe::part_of(what, {});
-        else if (!what.mean && same_column(what, wanted))
+        else if (!what.one_number() && same_column(what, wanted))
             part = observe::part_of(what, text);
         if (part) return recorder;
     }

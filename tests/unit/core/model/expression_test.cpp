@@ -31,7 +31,7 @@ std::string quantity(const Quantity& q) {
     static const char* names[] = {"", "cycle", "trial", "seconds", "", "mean", "sum", "min", "max"};
     if (q.kind == Quantity::number) return std::to_string(q.value).substr(0, 4);
     auto cells = q.source;
-    cells.mean = false;
+    cells.reduction = {};
     return q.kind == Quantity::cell
                ? cells.text()
                : names[q.kind] + (q.kind > Quantity::cell ? "(" + cells.text() + ")" : "");
@@ -131,11 +131,14 @@ TEST_CASE("Every example of the reference is read") {
 TEST_CASE("A source is a column, its mean, and some of its cells") {
     CHECK(source("Bug/Light") == "Bug/Light");
     const auto s = parse_source("mean:Bug/Light:vm(2..4, 1)");
-    CHECK((s.mean && s.column.text == "Bug/Light:vm" && s.cells == model::Region{2, 1, 3, 1, {}}));
+    CHECK((s.reduction == "mean" && s.column.text == "Bug/Light:vm" &&
+           s.cells == model::Region{2, 1, 3, 1, {}}));
     CHECK(parse_source("Bug/Motor(5,2..9)").cells == model::Region{5, 2, 1, 8, {}});
     CHECK(parse_source(" Bug/Motor ( 5 , 5 ) ").cells == model::Region{5, 5, 1, 1, {}});
     CHECK(source("mean(Bug/Light)") == "mean:Bug/Light");
     CHECK(source(" mean ( Bug/Light:vm(2..4,1) ) ") == "mean:Bug/Light:vm(2..4,1)");
+    CHECK(source("max(Bug/Light:vm)") == "max:Bug/Light:vm");
+    CHECK(source("max:Bug/Light(1,1)") == "max:Bug/Light(1,1)");
     CHECK(source("\"Bug/Light\"") == "Bug/Light");
     CHECK(source("mean(\"Bug/Light\":vm(1,1))") == "mean:Bug/Light:vm(1,1)");
     CHECK(source("mean:\"Bug/Light:vm\"") == "mean:Bug/Light:vm");
@@ -145,13 +148,31 @@ TEST_CASE("A source is a column, its mean, and some of its cells") {
 }
 
 TEST_CASE("Names may contain blanks, dots, colons, parentheses and quotes") {
-    for (const char* name : {"Reactive/US (light)", "Reactive/US (a,b)", "P/G (", "P/G ()", "P/a:b", "P/a.b",
-                             "P/a=b", "P/a > b", "P/a and b", "P/5\" disk", "\"P/A", "\"P\"/A", "mean",
-                             "mean/G", "means(P/A)", "mean(a)/G (b)", "P/US (1,1) x", "P/A(1..,1)", ""}) {
+    for (const char* name : {"Reactive/US (light)",
+                             "Reactive/US (a,b)",
+                             "P/G (",
+                             "P/G ()",
+                             "P/a:b",
+                             "P/a.b",
+                             "P/a=b",
+                             "P/a > b",
+                             "P/a and b",
+                             "P/5\" disk",
+                             "\"P/A",
+                             "\"P\"/A",
+                             "mean",
+                             "mean/G",
+                             "means(P/A)",
+                             "mean(a)/G (b)",
+                             "max",
+                             "max(a)/G (b)",
+                             "P/US (1,1) x",
+                             "P/A(1..,1)",
+                             ""}) {
         const auto s = parse_source(name);
         CHECK(s.column.text == name);
         CHECK(!s.cells);
-        CHECK(!s.mean);
+        CHECK(s.reduction.empty());
     }
     CHECK(parse_source("Reactive/US (light)(1,1)").column.text == "Reactive/US (light)");
     CHECK(parse_source("US (a(1,1)").column.text == "US (a");

@@ -1,5 +1,6 @@
 #include "core/observe/source.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/unit/core/engine/simulations.h"
@@ -93,6 +94,7 @@ TEST_CASE("Synapses are cells of a matrix with a column per source cell and a ro
     CHECK(read(s, "learn:weight(3,2)") == std::vector<double>{all[5]});
     CHECK(read(s, "mean(learn:weight)")[0] == (weights[0] + weights[1] + weights[2]) / 3);
     CHECK(read(s, "mean(learn:weight(2..3,1..2))")[0] == weights[1]);
+    CHECK(read(s, "max(learn:weight)")[0] == std::max({weights[0], weights[1], weights[2]}));
 }
 
 TEST_CASE("A source that does not name synapses with states is an error") {
