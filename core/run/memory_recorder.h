@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -26,9 +27,12 @@ class MemoryRecorder final : public Observer {
     const std::vector<std::uint64_t>& cycles() const { return cycles_; }
     /// The recorded numbers: one row per recorded cycle, one column per cell. Valid until the next cycle.
     Rows rows() const {
-        return {numbers_.data(), static_cast<Index>(cycles_.size()),
+        return {numbers_->data(), static_cast<Index>(cycles_.size()),
                 static_cast<Index>(source_.what().size())};
     }
+
+    /// The memory of rows(). Whoever shares it sees the rows of now also after further cycles.
+    std::shared_ptr<const std::vector<double>> numbers() const { return numbers_; }
 
     /// What was recorded since the start, or since the last call.
     struct Taken {
@@ -36,7 +40,7 @@ class MemoryRecorder final : public Observer {
         std::vector<double> numbers;  ///< of all rows
     };
     /// Hands over what was recorded, and forgets it.
-    Taken take() { return {std::exchange(cycles_, {}), std::exchange(numbers_, {})}; }
+    Taken take();
 
     void declare(engine::Demand& demand) const override { source_.declare(demand); }
     void after_cycle(RunView& view) override;
@@ -46,7 +50,7 @@ class MemoryRecorder final : public Observer {
     observe::Source source_;
     std::uint64_t every_;
     std::vector<std::uint64_t> cycles_;
-    std::vector<double> numbers_;
+    std::shared_ptr<std::vector<double>> numbers_ = std::make_shared<std::vector<double>>();
 };
 
 }  // namespace forage

@@ -84,8 +84,9 @@ MeasuredTrials TrialRecorder::trials(const Environment& environment,
                                      const engine::Simulation& simulation) const {
     MeasuredTrials out;
     const auto& finished = environment.trials(robot_);
-    for (std::size_t i = 0; i < finished.size(); ++i)
-        out.finished.push_back(measured(finished[i], finished_[i]));
+    for (std::size_t i = 0; i < finished.size(); ++i)  // one may have ended since the last cycle
+        out.finished.push_back(
+            measured(finished[i], i < finished_.size() ? finished_[i] : at_end(finished[i], simulation)));
     if (const Trial running = environment.current_trial(robot_); running.cycles > 0)
         out.running = measured(running, at_end(running, simulation));
     return out;

@@ -73,4 +73,11 @@ void begin_trial(Run& run, std::string_view robot, std::optional<std::size_t> st
                       start ? std::optional(world.start_poses()[*start]) : std::nullopt);
 }
 
+bool truncated(Run& run, const Trial& trial) {
+    const auto& world = world_of(run);
+    const auto plan = world.reset_plan();
+    if (plan && !plan->bounds.contains(Eigen::Vector2d(trial.end.x, trial.end.y))) return false;
+    return !(world.description().trials && trial.reached_target);
+}
+
 }  // namespace forage

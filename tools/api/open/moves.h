@@ -27,5 +27,8 @@ void move(Run& run, std::string_view name, double x, double y, std::optional<dou
 /// Ends the trial of a robot, and begins the next one at the start pose with this number, from 0, or at the
 /// next one. The robot is the first one for an empty name. Throws InputError.
 void begin_trial(Run& run, std::string_view robot = {}, std::optional<std::size_t> start = {});
+/// Whether a finished trial was ended by a time limit or by begin_trial(), not because the robot left the
+/// bounds or, where the world's rules say so, reached a target.
+bool truncated(Run& run, const Trial& trial);
 
 }  // namespace forage
