@@ -112,6 +112,12 @@ class AgentRun {
     /// they have ended before.
     void step();
 
+    /// What the run and its agents need to continue, for restore() in a run of the same task. Throws
+    /// InputError when the run has probes, manipulations or measures.
+    std::string save();
+    /// Throws ArchiveError.
+    void restore(std::string_view state);
+
     std::size_t agents() const { return agents_.size(); }
     std::string robot(std::size_t agent) const;  ///< its name
     const std::vector<AgentPort>& sensors(std::size_t agent) const { return agents_[agent].sensors; }
@@ -150,12 +156,14 @@ class AgentRun {
     void stop(const State& agent);
     void follow(State& agent);
     void sense(State& agent);
+    void checkpoint(Archive& archive);
 
     std::shared_ptr<const AgentTask> task_;
     std::map<std::string, std::string> assignments_;  ///< of set(), by parameter
     std::map<int, std::vector<double>> weights_;      ///< of set_weights(), by connection
     std::shared_ptr<std::vector<Motor>> motors_;      ///< of all agents; the run's observer reads them
     std::shared_ptr<Run> run_;
+    std::size_t observers_ = 0;  ///< of the run itself
     bug::World* world_ = nullptr;
     std::unique_ptr<plot::Film> film_;  ///< of the world; made by picture()
     std::vector<State> agents_;
