@@ -7,6 +7,7 @@ import pytest
 
 import forage
 from conftest import SYSTEMS, WORLD
+from forage.gym import BugEnv
 
 REACTIVE = SYSTEMS / "reactive_foraging.iqr"
 LIGHT = "Bug/Light.vmMin"
@@ -64,3 +65,45 @@ def test_folders_of_many_values_have_short_names_of_their_own(tmp_path):
 def test_a_search_without_a_cost_says_so():
     with pytest.raises(forage.RunError, match="none of the 15 points has a cost"):
         forage.optimise(REACTIVE, WORLD, {"Bug/Light.threshold": (0, 1)}, measure={"n": {"duration": "all"}}, cost="n", generations=2, population=5, cycles=2)
+
+
+def test_actions_and_rewards_of_other_kinds_are_errors():
+    env = BugEnv(WORLD, action="velocity", motors={"motor": (9, 9)})
+    env.reset(seed=1)
+    for action in ([2.0, 0], [0, -2.0], [numpy.nan, 0]):
+        with pytest.raises(forage.InputError, match="is no action"):
+            env.step(action)
+    with pytest.raises(forage.InputError, match="the reward 3 is neither"):
+        BugEnv(WORLD, reward=3)
+
+
+def test_a_class_that_is_declared_again_replaces_the_first_one():
+    """As a notebook does whose cell is executed again."""
+
+    def activity(number):
+        class Again:
+            act = forage.state(0.0)
+
+            def update(self, cells):
+                cells.act = cells.act * 0 + number
+
+        with forage.System("again") as system:
+            system.add_process("P").add_group("A", 2, type=forage.neuron(Again))
+        run = forage.open(system)
+        run.run(cycles=2)
+        return run
+
+    first = activity(1.0)
+    assert activity(2.0)["P/A"].act.tolist() == [[2, 2]]
+    first.step()
+    assert first["P/A"].act.tolist() == [[1, 1]]
+
+
+def test_a_trial_that_was_just_ended_has_its_row(run):
+    run.run(cycles=10)
+    for _ in range(50):
+        run.begin_trial()
+        assert len(run.trials) >= 1  # read before the next cycle
+    run.run(cycles=3)
+    run.begin_trial()
+    assert run.trials["truncated"].all() and run.trials["cycles"].tolist()[0] == 10

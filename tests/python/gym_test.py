@@ -1,4 +1,5 @@
 """Environments for learning agents: the contracts of Gymnasium and PettingZoo, and that they act and sense as brains do."""
+import inspect
 import json
 import os
 import signal
@@ -456,8 +457,12 @@ def test_mistakes_with_worlds_side_by_side():
         env.step([1, 2])
     with pytest.raises(forage.InputError, match="no action"):
         env.step([1, 2, 9])
-    with pytest.raises(forage.InputError, match="not a function"):
-        BugVectorEnv(2, WORLD, reward=len)
+    with pytest.raises(TypeError):
+        BugVectorEnv(2, WORLD, reward=len).step([1, 2])
+    with pytest.raises(TypeError, match="the reward is a number"):
+        BugVectorEnv(2, WORLD, reward=lambda env: "1").step([1, 2])
+    with pytest.raises(forage.InputError, match="'human' is not a way"):
+        BugVectorEnv(2, WORLD, render_mode="human")
     with pytest.raises(forage.InputError, match="0 environments"):
         BugVectorEnv(0, WORLD)
     with pytest.raises(forage.InputError, match="1000000000 environments"):
@@ -480,6 +485,120 @@ def test_an_environment_is_not_used_by_two_threads_at_once():
     for t in threads:
         t.join()
     assert 0 < len(refused) < 4 and "another thread" in refused[0]
+
+
+def distance(env):
+    """A reward that reads all that a function may read."""
+    x, y, _ = env.split(env.observation)["gps"].ravel()
+    return -abs(x) - abs(y) + 10 * env.reached_target + len(env.run.trials)
+
+
+def test_functions_are_rewards_of_one_world_and_of_many():
+    several = BugVectorEnv(3, WORLD, sensors=["target", "gps"], reward=distance, max_steps=15)
+    singles = [BugEnv(WORLD, sensors=["target", "gps"], reward=distance, max_steps=15) for _ in range(3)]
+    several.reset(seed=4)
+    ended = [False] * 3
+    for i, env in enumerate(singles):
+        env.reset(seed=4 + i)
+    for step in range(50):
+        rewards = several.step([1, 1, step % 9])[1]
+        for i, env in enumerate(singles):
+            if ended[i]:
+                env.reset()
+                assert rewards[i] == 0
+                ended[i] = False
+            else:
+                _, reward, terminated, truncated, _ = env.step([1, 1, step % 9][i])
+                assert rewards[i] == reward
+                ended[i] = terminated or truncated
+
+
+def test_worlds_side_by_side_are_reached_by_name():
+    env = BugVectorEnv(2, WORLD, sensors=["gps"], render_mode="rgb_array")
+    observations, _ = env.reset(seed=1)
+    assert all((one == row).all() for one, row in zip(env.get_attr("observation"), observations))
+    assert [run.seed for run in env.get_attr("run")] == [1, 2] and env.call("run")[0] is env.envs[0].run
+    pictures = env.render()
+    single = BugEnv(WORLD, sensors=["gps"], render_mode="rgb_array")
+    single.reset(seed=2)
+    assert len(pictures) == 2 and (pictures[1] == single.render()).all()
+    assert env.call("split", observations[0])[1]["gps"].shape == (1, 3) and BugVectorEnv(2, WORLD).render() is None
+    env.set_attr("goal", [1, 2])
+    assert env.get_attr("goal") == (1, 2)
+    env.set_attr("goal", 3)
+    assert env.get_attr("goal") == (3, 3)
+    with pytest.raises(forage.InputError, match="3 values of goal for 2"):
+        env.set_attr("goal", [1, 2, 3])
+    with pytest.raises(AttributeError, match="nothing"):
+        env.get_attr("nothing")
+
+
+@pytest.mark.parametrize("options", ENVIRONMENTS, ids=lambda o: "-".join(o) or "usual")
+def test_the_rules_of_gymnasiums_checker(options):
+    """What gymnasium.utils.env_checker.check_env looks at, where test_the_contract_of_an_environment does not."""
+    env = BugEnv(WORLD, **options)
+    assert list(inspect.signature(env.reset).parameters) == ["seed", "options"] and inspect.signature(env.reset).parameters["seed"].default is None
+    for space in (env.action_space, env.observation_space):
+        assert all(space.contains(space.sample()) for _ in range(20))
+        if hasattr(space, "low"):
+            assert (space.low < space.high).all() and space.low.dtype == space.dtype and space.dtype == numpy.float32
+    first = env.reset(seed=123)[0]
+    assert env.np_random_seed == 123 and env.np_random.bit_generator.state == numpy.random.default_rng(123).bit_generator.state
+    env.reset()
+    assert env.np_random_seed == 123
+    assert (env.reset(seed=123)[0] == first).all() and env.np_random.bit_generator.state == numpy.random.default_rng(123).bit_generator.state
+    env.reset(seed=456)
+    assert env.np_random_seed == 456
+    action = env.action_space.sample()
+    env.reset(seed=1), env.action_space.seed(1)
+    one = env.step(action)
+    env.reset(seed=1)
+    two = env.step(action)
+    assert (one[0] == two[0]).all() and one[1:] == two[1:] and numpy.isfinite(one[0]).all() and numpy.isfinite(one[1])
+    assert BugEnv.metadata["render_modes"] == ["rgb_array", "human"] and BugEnv.metadata["render_fps"] > 0
+    with pytest.raises(forage.InputError, match="not a way to render"):
+        BugEnv(WORLD, render_mode="ansi")
+
+
+def test_the_rules_of_pettingzoos_tests():
+    """What pettingzoo.test.parallel_api_test and parallel_seed_test look at, where test_the_parallel_contract does not."""
+    env, twin = BugParallelEnv(TWO, max_steps=20), BugParallelEnv(TWO, max_steps=20)
+    assert not env.agents and BugParallelEnv.metadata["name"] and all(isinstance(agent, str) for agent in env.possible_agents)
+    for agent in env.possible_agents:
+        assert env.observation_space(agent) is env.observation_space(agent) and env.action_space(agent) is env.action_space(agent)
+    for seed in (42, 43):
+        for one in (env, twin):
+            for agent in one.possible_agents:
+                one.action_space(agent).seed(seed)
+        (observations, infos), (others, _) = env.reset(seed=seed), twin.reset(seed=seed)
+        assert env.agents == env.possible_agents and set(infos) == set(observations) == set(env.agents)
+        gone = set()
+        while env.agents:
+            actions = {agent: env.action_space(agent).sample() for agent in env.agents}
+            assert actions == {agent: twin.action_space(agent).sample() for agent in twin.agents}
+            step, other = env.step(actions), twin.step(actions)
+            assert all((step[0][agent] == other[0][agent]).all() for agent in step[0]) and step[1:] == other[1:]
+            assert not gone & set(step[0])
+            gone |= {agent for agent in step[0] if step[2][agent] or step[3][agent]}
+            assert all(type(flag) is bool for part in step[2:4] for flag in part.values())
+    assert env.num_agents == 0 and gone == set(env.possible_agents)
+
+
+def test_the_rules_of_vector_environments():
+    """What Gymnasium's vector environments promise: batches of the single spaces, and a mask for each key of infos."""
+    env = BugVectorEnv(3, WORLD, max_steps=4, end_at_target=False)
+    assert env.num_envs == 3 and env.observation_space.shape == (3, *env.single_observation_space.shape) and not env.closed
+    assert env.metadata["autoreset_mode"] in ("NextStep", getattr(env.metadata["autoreset_mode"], "NEXT_STEP", None)) and env.np_random_seed is not None
+    infos = [env.reset(seed=3)[1]]
+    assert env.np_random_seed == 3
+    for step in range(6):
+        observations, rewards, terminated, truncated, info = env.step(env.action_space.sample())
+        assert env.observation_space.contains(observations) and rewards.dtype == numpy.float64
+        assert [part.shape for part in (rewards, terminated, truncated)] == [(3,)] * 3 and terminated.dtype == truncated.dtype == bool
+        assert truncated.all() == (step == 3)
+        infos.append(info)
+    for info in infos:
+        assert all(name.startswith("_") or info["_" + name].dtype == bool and len(info["_" + name]) == len(info[name]) == 3 for name in info)
 
 
 @settings(max_examples=15)

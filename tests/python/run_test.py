@@ -139,7 +139,7 @@ def test_a_condition_ends_a_run(dac):
 
 def test_a_trial_that_takes_too_long_is_an_error_and_the_run_goes_on(dac):
     with pytest.raises(forage.RunError, match=r"trial 1 did not end within 1 s \(trial_timeout\)"):
-        dac.run(trials=1, trial_timeout=1)
+        dac.run(trials=1, trial_timeout=1, on_timeout="raise")
     dac.step()
 
 

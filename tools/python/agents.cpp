@@ -44,13 +44,23 @@ struct PythonAgents {
     explicit PythonAgents(Task task) : run(std::move(task)) {}
     AgentRun run;
     mutable std::atomic_flag in_use;
+    std::weak_ptr<PythonRun> shown;  ///< the last result of shown_run()
 };
 
 struct PythonPool {
     PythonPool(const Task& task, std::size_t runs, int threads) : pool(task, runs, threads) {}
     AgentPool pool;
     std::atomic_flag in_use;
+    std::vector<std::weak_ptr<PythonRun>> shown = std::vector<std::weak_ptr<PythonRun>>(pool.size());
 };
+
+/// The run of an agent as Python sees it: the same object while it is used, and the agent has this run.
+std::shared_ptr<PythonRun> shown_run(const AgentRun& agent, std::weak_ptr<PythonRun>& shown) {
+    auto out = shown.lock();
+    if (!out || out->closed() || out->owner() != agent.run())
+        shown = out = std::make_shared<PythonRun>(agent.run(), PythonRun::OnNan::ignore);
+    return out;
+}
 
 ActionKind action_kind(const std::string& name) {
     static const std::vector<std::string> names{"cell", "velocity", "activity"};
@@ -166,9 +176,8 @@ py::list ports(const std::vector<AgentPort>& all) {
     return out;
 }
 
-py::array_t<std::uint8_t> picture(PythonAgents& self) {
-    const InUse use(self.in_use);
-    const plot::Pixels pixels = self.run.picture();
+py::array_t<std::uint8_t> picture_of(AgentRun& agent) {
+    const plot::Pixels pixels = agent.picture();
     py::array_t<std::uint8_t> out({pixels.height, pixels.width, 3});
     auto* to = out.mutable_data();
     for (int y = 0; y < pixels.height; ++y)
@@ -178,6 +187,18 @@ py::array_t<std::uint8_t> picture(PythonAgents& self) {
                     pixels.rgb[static_cast<std::size_t>(y) * pixels.stride + static_cast<std::size_t>(x)] >>
                     shift);
     return out;
+}
+
+py::array_t<std::uint8_t> picture(PythonAgents& self) {
+    const InUse use(self.in_use);
+    return picture_of(self.run);
+}
+
+/// The number of an environment. Throws InputError.
+std::size_t index_in(const PythonPool& self, std::int64_t i) {
+    const auto count = static_cast<std::int64_t>(self.pool.size());
+    if (i < 0 || i >= count) throw InputError("there is no environment " + std::to_string(i));
+    return static_cast<std::size_t>(i);
 }
 
 template <class T>
@@ -273,8 +294,11 @@ void add_agents(py::module_& module) {
             "motors", [](const PythonAgents& self, std::size_t i) { return ports(self.run.motors(i)); },
             "agent"_a)
         .def("picture", &picture)
-        .def_property_readonly("run",
-                               [](PythonAgents& self) { return std::make_shared<PythonRun>(self.run.run()); })
+        .def_property_readonly("run", [](PythonAgents& self) { return shown_run(self.run, self.shown); })
+        .def("save", [](PythonAgents& self) { return py::bytes(self.run.save()); })
+        .def(
+            "restore", [](PythonAgents& self, const std::string& state) { self.run.restore(state); },
+            "state"_a)
         .def_property_readonly("robots", [](const PythonAgents& self) {
             std::vector<std::string> out;
             for (std::size_t i = 0; i < self.run.agents(); ++i) out.push_back(self.run.robot(i));
@@ -307,6 +331,36 @@ void add_agents(py::module_& module) {
             },
             "connection"_a, "weights"_a)
         .def("step", &step_pool, "actions"_a)
+        .def(
+            "run",
+            [](PythonPool& self, std::int64_t i) {
+                const auto at = index_in(self, i);
+                return shown_run(self.pool[at], self.shown[at]);
+            },
+            "environment"_a)
+        .def(
+            "picture",
+            [](PythonPool& self, std::int64_t i) {
+                const InUse use(self.in_use);
+                return picture_of(self.pool[index_in(self, i)]);
+            },
+            "environment"_a)
+        .def("save",
+             [](PythonPool& self) {
+                 const InUse use(self.in_use);
+                 py::list out;
+                 for (std::size_t i = 0; i < self.pool.size(); ++i)
+                     out.append(py::bytes(self.pool[i].save()));
+                 return out;
+             })
+        .def(
+            "restore",
+            [](PythonPool& self, const std::vector<std::string>& states) {
+                const InUse use(self.in_use);
+                for (std::size_t i = 0; i < std::min(states.size(), self.pool.size()); ++i)
+                    self.pool[i].restore(states[i]);
+            },
+            "states"_a)
         .def("sensors", [](PythonPool& self) { return ports(self.pool[0].sensors(0)); })
         .def("motors", [](PythonPool& self) { return ports(self.pool[0].motors(0)); })
         .def_property_readonly("threads", [](const PythonPool& self) { return self.pool.threads(); });

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include "tools/python/dlpack.h"
 #include "tools/python/values.h"
 
 namespace forage::python {
@@ -57,12 +58,18 @@ int state_number(const PythonGroup& group, std::string_view name) {
     return it == states.end() ? -1 : static_cast<int>(it - states.begin());
 }
 
-py::object attribute(const PythonGroup& group, const std::string& name) {
+}  // namespace
+
+py::object state_of(const PythonGroup& group, const std::string& name) {
     if (const int number = state_number(group, name); number >= 0) return state(group, number);
     for (int kind = 0; kind < input_kinds; ++kind)
         if (name == input_names[kind]) return input(group, static_cast<InputKind>(kind));
     throw py::attribute_error(fmt::format("'{}' has no state '{}'", group.about().path, name));
 }
+
+py::array activity_of(const PythonGroup& group) { return state(group, group.about().type.output()); }
+
+namespace {
 
 std::vector<std::string> state_names(const PythonGroup& group) {
     std::vector<std::string> out;
@@ -72,7 +79,9 @@ std::vector<std::string> state_names(const PythonGroup& group) {
 
 py::list directory(const py::object& self) {
     py::list out = py::module_::import("builtins").attr("object").attr("__dir__")(self);
-    for (const auto& name : state_names(self.cast<const PythonGroup&>())) out.append(name);
+    const auto& group = self.cast<const PythonGroup&>();
+    if (!group.run->obstacle().empty()) return out;
+    for (const auto& name : state_names(group)) out.append(name);
     for (const char* name : input_names) out.append(name);
     return out;
 }
@@ -167,7 +176,7 @@ Group.clamp(), add() and multiply() make one. As a context manager it removes it
         .def("__exit__", [](PythonManipulation& self, const py::args&) { self.remove(); })
         .def("_repr_html_", html("plain"))
         .def("__repr__", [](const PythonManipulation& self) { return repr(self); });
-    py::class_<PythonGroup>(module, "Group", R"(A group of cells of a run: run["Process/Group"].
+    py::class_<PythonGroup> type(module, "Group", R"(A group of cells of a run: run["Process/Group"].
 
 Each state and each input (excIn, inhIn, modIn) of its neurons is an attribute: an array of numbers without a unit, of shape (rows, columns), or
 (cells,) of a sparse group. Cell (x, y) of a file, which counts from 1, is [y - 1, x - 1].
@@ -176,10 +185,12 @@ The array of a state is read-only, copies nothing, and is live: it shows the num
 cycle that is being computed while the run runs. It keeps its run in memory, and shows its last numbers when the run is closed. Inputs, and states of
 types that keep several cycles (history), are copies of the last cycle's numbers. `numpy.array(group.act)` is a copy, too.
 
-A state that is not observed raises InputError (forage.open, observe).)")
-        .def_property_readonly(
-            "act", [](const PythonGroup& g) { return state(g, g.about().type.output()); },
-            "The activity: the state that connections read. See the class.")
+NumPy takes a group as its activity, group[index] is a part of it, and other packages take it live by DLPack: torch.from_dlpack(group).
+
+A state that is not observed raises InputError (forage.open, observe).)");
+    add_array(type, &activity_of), add_dlpack(type, &activity_of), add_equality(type);
+    type.def_property_readonly("act", &activity_of,
+                               "The activity: the state that connections read. See the class.")
         .def_property_readonly(
             "path", [](const PythonGroup& g) { return g.about().path; }, R"(The name, "Process/Group".)")
         .def_property_readonly(
@@ -211,7 +222,14 @@ values: a number for all cells, or an array of the group's shape.
 state: the name of a state; the activity without it.
 
 Raises InputError for another shape, for numbers that are not finite, for an input, and for a group that the run was not opened to overwrite.)")
-        .def("__getattr__", &attribute, "name"_a)
+        .def(
+            "__getattr__",
+            [](const PythonGroup& self, const std::string& name) {
+                if (name.starts_with("__"))
+                    throw py::attribute_error(name);  // Python's own, also when closed
+                return state_of(self, name);
+            },
+            "name"_a)
         .def("__dir__", &directory)
         .def("_repr_html_", html("group"))
         .def("__repr__", [](const PythonGroup& self) { return repr(self); });

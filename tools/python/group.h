@@ -1,6 +1,7 @@
 // Groups of a run as Python sees them.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +21,11 @@ struct PythonGroup {
     }
 };
 
+/// A group's state or input with this name, as an array. Throws py::attribute_error.
+py::object state_of(const PythonGroup& group, const std::string& name);
+/// The activity.
+py::array activity_of(const PythonGroup& group);
+
 /// A connection of a run.
 struct PythonConnection {
     std::shared_ptr<PythonRun> run;
@@ -28,6 +34,38 @@ struct PythonConnection {
 
 /// The group that `path` names. Throws InputError.
 PythonGroup find_group(PythonRun& run, const std::string& path);
+
+/// Makes two objects equal that are the same part of the same run.
+template <class Class>
+void add_equality(Class& type) {
+    using Self = typename Class::type;
+    type.def(
+            "__eq__", [](const Self& a, const Self& b) { return a.run == b.run && a.number == b.number; },
+            py::is_operator())
+        .def("__hash__", [](const Self& self) {
+            return py::hash(py::make_tuple(reinterpret_cast<std::uintptr_t>(self.run.get()), self.number));
+        });
+}
+
+/// Gives a class what NumPy needs to take its objects as arrays; `numbers` returns the array.
+template <class Class, class Numbers>
+void add_array(Class& type, Numbers numbers) {
+    using Self = typename Class::type;
+    type.def(
+            "__array__",
+            [numbers](const Self& self, const py::object& dtype, const py::object& copy) {
+                const py::object array =
+                    py::module_::import("numpy").attr("asarray")(numbers(self), py::arg("dtype") = dtype);
+                return !copy.is_none() && copy.cast<bool>() ? array.attr("copy")() : array;
+            },
+            py::arg("dtype") = py::none(), py::arg("copy") = py::none())
+        .def(
+            "__getitem__",
+            [numbers](const Self& self, const py::object& index) {
+                return py::object(numbers(self).attr("__getitem__")(index));
+            },
+            py::arg("index"));
+}
 
 /// A manipulation of a run, until it is removed.
 struct PythonManipulation {

@@ -21,7 +21,7 @@ void find_installation() {
 
 PYBIND11_MODULE(_forage, module) {
     using namespace forage::python;
-    // The signatures are in forage/_forage.pyi, in the words of Python.
+    // Those of pybind11 have types of C++; see complete_functions() and forage/_forage.pyi.
     pybind11::options options;
     options.disable_function_signatures();
     module.attr("__version__") = FORAGE_VERSION;
@@ -39,4 +39,5 @@ PYBIND11_MODULE(_forage, module) {
     add_systems(module);
     add_experiments(module);
     add_types(module);
+    complete_functions(module);
 }

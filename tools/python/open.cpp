@@ -19,6 +19,7 @@
 #include "tools/python/system.h"
 #include "tools/python/tables.h"
 #include "tools/python/values.h"
+#include "tools/python/wiring.h"
 
 namespace forage::python {
 namespace {
@@ -29,12 +30,17 @@ using SystemPointer = std::shared_ptr<PythonSystem>;
 using Names = std::optional<std::vector<std::string>>;
 using Count = std::optional<std::int64_t>;
 using Seconds = std::optional<double>;
+using OnNan = PythonRun::OnNan;
+
+constexpr const char* on_nan_names[] = {"raise", "warn", "ignore", nullptr};
+constexpr const char* on_timeout_names[] = {"truncate", "raise", nullptr};
 
 std::shared_ptr<PythonRun> open_run(const std::variant<Path, SystemPointer>& system,
                                     const std::optional<Path>& world, std::uint64_t seed,
                                     const py::object& settings, const std::vector<Path>& plugins, int threads,
                                     bool lenient, bool noise, Seconds real_time_factor, const Names& observe,
-                                    const Names& overwrite) {
+                                    const Names& overwrite, const std::string& on_nan) {
+    const auto nan = static_cast<OnNan>(choice(on_nan, on_nan_names, "on_nan"));
     OpenOptions options{.world = world ? world->string() : std::string(),
                         .seed = seed,
                         .settings = assignments(settings),
@@ -52,8 +58,8 @@ std::shared_ptr<PythonRun> open_run(const std::variant<Path, SystemPointer>& sys
     const auto file = built ? std::optional((*built)->file()) : std::nullopt;  // as it is now
     return warned([&](Diagnostics* warnings) {
         const py::gil_scoped_release others;
-        return std::make_shared<PythonRun>(file ? open(*file, options, warnings)
-                                                : open(path->string(), options, warnings));
+        return std::make_shared<PythonRun>(
+            file ? open(*file, options, warnings) : open(path->string(), options, warnings), nan);
     });
 }
 
@@ -75,7 +81,7 @@ std::shared_ptr<PythonRun> resume_run(const py::object& state, bool trusted) {
 std::shared_ptr<PythonRun> restart(PythonRun& self, std::uint64_t seed) {
     const Run& run = self.use();
     const py::gil_scoped_release others;
-    return std::make_shared<PythonRun>(restarted(run, seed));
+    return std::make_shared<PythonRun>(restarted(run, seed), self.on_nan());
 }
 
 py::object save(PythonRun& self, const py::object& file) {
@@ -115,16 +121,22 @@ RunLength length_of(Count cycles, Seconds seconds, Count trials, double trial_ti
             .trial_timeout = trial_timeout};
 }
 
+bool truncates(const std::string& on_timeout) {
+    return choice(on_timeout, on_timeout_names, "on_timeout") == 0;
+}
+
 void run_for(PythonRun& self, Count cycles, Seconds seconds, Count trials, const py::object& progress,
-             double trial_timeout) {
-    self.advance(length_of(cycles, seconds, trials, trial_timeout), reporter(progress));
+             double trial_timeout, const std::string& on_timeout) {
+    const bool truncate = truncates(on_timeout);
+    self.advance(length_of(cycles, seconds, trials, trial_timeout), reporter(progress), truncate);
 }
 
 bool run_until(PythonRun& self, const std::string& condition, Count cycles, Seconds seconds, Count trials,
-               const py::object& progress, double trial_timeout) {
+               const py::object& progress, double trial_timeout, const std::string& on_timeout) {
+    const bool truncate = truncates(on_timeout);
     RunLength length = length_of(cycles, seconds, trials, trial_timeout);
     length.until = {condition};
-    return self.advance(length, reporter(progress));
+    return self.advance(length, reporter(progress), truncate);
 }
 
 py::array read(PythonRun& self, const std::string& source) {
@@ -140,18 +152,29 @@ std::vector<std::string> group_paths(const PythonRun& self) {
     return out;
 }
 
-/// A group, or a connection that has no name of a group.
+/// A group; a connection that has no name of a group; or a state of a group, "Process/Group:vm".
 py::object item(PythonRun& self, const std::string& name) {
     const Run& run = self.use();
     if (is_connection(run, name))
         return py::cast(PythonConnection{self.shared_from_this(), find_connection(run, name)});
-    return py::cast(find_group(self, name));
+    const PythonGroup group = find_group(self, name);
+    if (group.about().path == name) return py::cast(group);
+    const auto colon = name.rfind(':');
+    return colon == name.npos ? py::cast(group) : state_of(group, name.substr(colon + 1));
 }
 
-bool run_has(const PythonRun& self, const std::string& name) {
+bool run_has(const PythonRun& self, const py::object& key) {
     const Run& run = self.use();
+    if (!py::isinstance<py::str>(key)) return false;
+    const auto name = key.cast<std::string>();
     return is_connection(run, name) ||
            std::ranges::any_of(run.layout().groups, [&](const auto& g) { return g.path == name; });
+}
+
+std::vector<std::string> item_names(const PythonRun& self) {
+    auto out = group_paths(self);
+    for (const auto& c : self.use().layout().connections) out.push_back(c.name);
+    return out;
 }
 
 void remove(PythonRun& self, const py::object& what) {
@@ -200,23 +223,25 @@ void add_runs(py::module_& module) {
     run.doc() = R"(A system in its world, run cycle by cycle. forage.open() makes one.
 
 It may be read and changed between any two cycles. One thread at a time uses a run; several runs in several threads of Python use several cores, as
-Python continues while a run runs. As a context manager it closes itself. copy.copy() and pickle make runs in the same state, without callbacks.)";
+Python continues while a run runs. run["Process/Group"] is a Group, run["Process/Group:vm"] the array of a state, run["A to B"] a Connection; iterating
+gives the names of the groups. As a context manager it closes itself. copy.copy() and pickle make runs in the same state, without callbacks.)";
     run.def("step", &PythonRun::step,
             "Runs one cycle. Raises RunError when a type or a module fails; such a run cannot continue.")
         .def(
             "run", &run_for, py::kw_only(), "cycles"_a = none, "seconds"_a = none, "trials"_a = none,
-            "progress"_a = none, "trial_timeout"_a = 300.0,
+            "progress"_a = none, "trial_timeout"_a = 300.0, "on_timeout"_a = "truncate",
             R"(Runs for a number of cycles, seconds of the world or trials of the first robot, from now on; for 60 seconds without any of them.
 
 Seconds end with the first cycle that completes them. What this cycle is longer shortens the next length in seconds, so calls in a row add up.
 progress: True for a bar on the standard error, or a function that is called ten times per second with the fraction that is done, 0 to 1, and a text.
-trial_timeout: seconds of the world. A trial that takes longer raises RunError.
+trial_timeout: seconds of the world, for a length in trials. on_timeout: "truncate" ends a trial that takes longer, so its row in `trials` is `truncated`,
+    and begins the next one; "raise" raises RunError.
 
 Raises InputError for two lengths, and for lengths that are negative or not finite. Ctrl-C raises KeyboardInterrupt between two cycles. After it, and after
 what a callback raises, the run can continue.)")
         .def(
             "run_until", &run_until, "condition"_a, py::kw_only(), "cycles"_a = none, "seconds"_a = none,
-            "trials"_a = none, "progress"_a = none, "trial_timeout"_a = 300.0,
+            "trials"_a = none, "progress"_a = none, "trial_timeout"_a = 300.0, "on_timeout"_a = "truncate",
             R"(Runs until a condition such as "trial 30 || mean(Adaptive/discrepancy) < 0.1" holds, or a length is reached as in run().
 
 Returns whether the condition holds. Without a length, the run ends with the condition only. Raises InputError for mistakes in the condition.)")
@@ -258,7 +283,8 @@ callback, it is a decorator: @run.on_cycle(every=100).)")
             "trials", [](PythonRun& self) { return trials(self, 0); },
             R"(The finished trials of the first robot: a structured array with the columns of trials.csv (docs/reference/results.md).
 
-Positions are in m, angles in rad, counter-clockwise from the x axis. `reached_target` stands for the outcome; NaN and -1 for what does not apply.)")
+Positions are in m, angles in rad, counter-clockwise from the x axis. `reached_target` stands for the outcome; NaN and -1 for what does not apply.
+`truncated`: the trial was ended by trial_timeout, a time limit of the world or begin_trial(), not by the robot.)")
         .def("trials_of", &trials, "robot"_a, "The same of the robot with this number, from 0.")
         .def_property_readonly("measures", &measures,
                                "The present values of the measures: a structured array of shape () with a "
@@ -333,8 +359,10 @@ Raises InputError.)_")
 file: a name that ends with .gif, with .mp4 where ffmpeg is installed, or with .png for numbered pictures.
 groups: sources whose activity is shown beside the world, such as "Process/Group".
 Returns a Film, which is complete when it or the run is closed. Raises InputError, also without a world.)");
-    run.def("__getitem__", &item)
-        .def("__contains__", &run_has)
+    run.def("__getitem__", &item, "name"_a)
+        .def("__contains__", &run_has, "name"_a)
+        .def("__iter__", [](const PythonRun& self) { return py::iter(py::cast(group_paths(self))); })
+        .def("_ipython_key_completions_", &item_names)
         .def("__enter__", [](PythonRun& self) { return self.shared_from_this(); })
         .def("__exit__", [](PythonRun& self, const py::args&) { self.close(); })
         .def("_repr_html_", html("run"))
@@ -342,6 +370,7 @@ Returns a Film, which is complete when it or the run is closed. Raises InputErro
     module.def("open", &open_run, "system"_a, py::kw_only(), "world"_a = none, "seed"_a = 1,
                "settings"_a = none, "plugins"_a = std::vector<Path>(), "threads"_a = 1, "lenient"_a = false,
                "noise"_a = true, "real_time_factor"_a = none, "observe"_a = none, "overwrite"_a = none,
+               "on_nan"_a = "warn",
                R"(Opens a system, ready for its first cycle.
 
 system: the path of the file, or a System.
@@ -356,6 +385,8 @@ real_time_factor: seconds of the world per second of the clock; the world's own 
 observe: sources that will be read, such as "Bug/Light". With it, or with `overwrite`, the run computes nothing else but what these and modules need,
     which is faster and gives the same numbers; reading something else raises InputError.
 overwrite: groups that will be overwritten, which may also be read.
+on_nan: what happens when a number becomes NaN or infinite for the first time: "warn" issues a RuntimeWarning at the end of run() or step(), "raise" raises
+    RunError after that cycle, "ignore" does nothing; Run.divergence says where it was.
 
 Raises InputError with all mistakes, and issues InputWarning.)");
     module.def(

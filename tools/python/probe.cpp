@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include "tools/python/dlpack.h"
+#include "tools/python/group.h"
 #include "tools/python/values.h"
 
 namespace forage::python {
@@ -38,6 +40,18 @@ py::object recording(const PythonProbe& self, MemoryRecorder::Taken taken) {
 py::object copied(const PythonProbe& self) {
     const auto rows = self.use().rows();
     return recording(self, {self.use().cycles(), {rows.data(), rows.data() + rows.size()}});
+}
+
+/// A read-only view of what was recorded until now. Further cycles do not change it.
+py::array view(const PythonProbe& self) {
+    auto shape = shape_of(self.use().what());
+    shape.insert(shape.begin(), static_cast<py::ssize_t>(self.use().cycles().size()));
+    using Memory = std::shared_ptr<const std::vector<double>>;
+    auto* memory = new Memory(self.use().numbers());
+    const py::capsule keeper(memory, [](void* p) { delete static_cast<Memory*>(p); });
+    py::array_t<double> out(shape, (*memory)->data(), keeper);
+    out.attr("flags").attr("writeable") = false;
+    return std::move(out);
 }
 
 /// A method of Recording, called with what the probe holds.
@@ -81,10 +95,11 @@ std::vector<PythonProbe> probes(PythonRun& run) {
 }
 
 void add_probes(py::module_& module) {
-    py::class_<PythonProbe>(module, "Probe", R"(A recording in memory: run.probe("Process/Group").
+    py::class_<PythonProbe> type(module, "Probe", R"(A recording in memory: run.probe("Process/Group").
 
-It can be read while the run lasts and after it is closed.)")
-        .def_property_readonly(
+It can be read while the run lasts and after it is closed. NumPy takes it as the array `data`, and probe[index] is a part of that.)");
+    add_array(type, &view), add_dlpack(type, &view);
+    type.def_property_readonly(
             "source", [](const PythonProbe& p) { return p.use().what().name; },
             R"(What is recorded, such as "Bug/Light:act".)")
         .def_property_readonly(
@@ -94,9 +109,9 @@ It can be read while the run lasts and after it is closed.)")
             "cycles", [](const PythonProbe& p) { return cycles_array(p.use().cycles()); },
             "The numbers of the recorded cycles: an array of shape (rows,).")
         .def_property_readonly(
-            "data", [](const PythonProbe& p) -> py::object { return copied(p).attr("data"); },
-            R"(A copy of the recorded numbers: an array of shape (rows of the recording, rows, columns), (rows, cells) of a sparse
-group, (rows,) of a mean, and (rows, targets, sources) of synapses.)")
+            "data", &view,
+            R"(The recorded numbers, as a read-only view that copies nothing: an array of shape (rows of the recording, rows, columns), (rows, cells) of a sparse
+group, (rows,) of a mean or maximum, and (rows, targets, sources) of synapses. A cycle that is recorded later adds its row to the next view.)")
         .def(
             "take", [](const PythonProbe& p) { return recording(p, p.use().take()); },
             "Hands over what was recorded, as a Recording, and forgets it. It copies no numbers.")
@@ -106,6 +121,16 @@ group, (rows,) of a mean, and (rows, targets, sources) of synapses.)")
         .def("remove", &PythonProbe::remove, "Ends the recording, and forgets it.")
         .def("__len__", [](const PythonProbe& p) { return p.use().cycles().size(); })
         .def("_repr_html_", html("plain"))
+        .def(
+            "__eq__",
+            [](const PythonProbe& a, const PythonProbe& b) {
+                return a.owner == b.owner && a.recorder == b.recorder;
+            },
+            py::is_operator())
+        .def("__hash__",
+             [](const PythonProbe& p) {
+                 return py::hash(py::int_(reinterpret_cast<std::uintptr_t>(p.recorder)));
+             })
         .def("__repr__", [](const PythonProbe& p) { return repr(p); });
 }
 

@@ -26,6 +26,10 @@ void add_systems(py::module_& module);
 void add_types(py::module_& module);
 void add_wiring(py::module_& module);
 
+/// Gives all functions of the module their signatures, and sentences about wrong arguments. It is the last
+/// one.
+void complete_functions(py::module_& module);
+
 /// The method _repr_html_ of a class: the function of forage/_html.py with this name, called with the object.
 inline auto html(const char* function) {
     return [function](const py::object& self) {

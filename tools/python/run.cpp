@@ -4,6 +4,7 @@
 #include <chrono>
 
 #include "core/run/stop_condition.h"
+#include "tools/api/open/moves.h"
 #include "tools/python/held.h"
 
 namespace forage::python {
@@ -81,7 +82,10 @@ class PythonRun::Running {
     PythonRun& run_;
 };
 
-PythonRun::PythonRun(std::shared_ptr<Run> run) : run_(std::move(run)) { run_->start(); }
+PythonRun::PythonRun(std::shared_ptr<Run> run, OnNan on_nan) : run_(std::move(run)), on_nan_(on_nan) {
+    run_->start();
+    diverged_ = !run_->divergence().empty();
+}
 
 std::shared_ptr<Run> PythonRun::owner() const {
     if (const auto why = obstacle(); !why.empty()) throw engine::RunError("this run is " + std::string(why));
@@ -139,9 +143,18 @@ void PythonRun::step() {
     }
     if (due()) call_back();
     interrupt.deliver();
+    check_finite();
 }
 
-bool PythonRun::advance(const RunLength& length, const py::object& progress) {
+void PythonRun::check_finite() {
+    if (diverged_ || run_->divergence().empty()) return;
+    diverged_ = true;
+    if (on_nan_ == OnNan::raise) throw engine::RunError(run_->divergence());
+    if (on_nan_ == OnNan::warn && PyErr_WarnEx(PyExc_RuntimeWarning, run_->divergence().c_str(), 1) != 0)
+        throw py::error_already_set();
+}
+
+bool PythonRun::advance(const RunLength& length, const py::object& progress, bool truncate) {
     const Running running(*this);
     LateInterrupt interrupt;
     const bool signals = in_main_thread(), shown = !progress.is_none();
@@ -151,6 +164,7 @@ bool PythonRun::advance(const RunLength& length, const py::object& progress) {
             const py::gil_scoped_acquire python;
             call_back();
         }
+        if (on_nan_ == OnNan::raise && !diverged_) check_finite();
         if (!signals && !shown) return;
         const auto now = Clock::now();
         if (signals && (now >= next_signals || interrupt.waiting())) {
@@ -166,12 +180,23 @@ bool PythonRun::advance(const RunLength& length, const py::object& progress) {
         }
     };
     EarlyEnd end;
-    {
-        const py::gil_scoped_release others;
-        end = run_->advance(length, after_cycle);
+    RunLength left = length;
+    while (true) {
+        const std::size_t before = run_->has_trials() ? run_->environment()->trials(0).size() : 0;
+        {
+            const py::gil_scoped_release others;
+            end = run_->advance(left, after_cycle);
+        }
+        if (end.timeout.empty() || !truncate) break;
+        begin_trial(*run_);
+        end.timeout.clear();
+        const std::size_t ended = run_->environment()->trials(0).size() - before;
+        if (ended >= *left.trials) break;
+        *left.trials -= ended;
     }
     interrupt.deliver();
     if (shown) progress(1.0, "");
+    check_finite();
     if (!end.timeout.empty()) throw engine::RunError(end.timeout);
     return end.held;
 }

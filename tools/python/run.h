@@ -19,19 +19,25 @@ namespace forage::python {
 /// Python continue. All functions are called with the GIL.
 class PythonRun : public std::enable_shared_from_this<PythonRun> {
   public:
-    explicit PythonRun(std::shared_ptr<Run> run);
-    explicit PythonRun(Run run) : PythonRun(std::make_shared<Run>(std::move(run))) {}
+    /// What happens after the cycle in which a number became NaN or infinite for the first time.
+    enum class OnNan { raise, warn, ignore };
+
+    explicit PythonRun(std::shared_ptr<Run> run, OnNan on_nan = OnNan::warn);
+    explicit PythonRun(Run run, OnNan on_nan = OnNan::warn)
+        : PythonRun(std::make_shared<Run>(std::move(run)), on_nan) {}
 
     /// The run, to read and to change. Throws RunError when it is closed, or running in another thread.
     Run& use() const { return *owner(); }
     /// The same run, as an owner of the memory that a view shows.
     std::shared_ptr<Run> owner() const;
+    OnNan on_nan() const { return on_nan_; }
 
     void step();
     /// Runs until `length` is reached, and returns whether its condition held. `progress` is called ten times
-    /// per second with the fraction that is done and a text; it may be None. Throws RunError when a trial
-    /// takes too long, and what a callback or a signal handler raises; the run can continue.
-    bool advance(const RunLength& length, const py::object& progress);
+    /// per second with the fraction that is done and a text; it may be None. A trial that takes too long is
+    /// ended if `truncate` is set, and throws RunError otherwise. Throws what a callback or a signal handler
+    /// raises; the run can continue.
+    bool advance(const RunLength& length, const py::object& progress, bool truncate);
     void on_cycle(py::object callback, std::uint64_t every);
     /// Removes the callback. Returns whether there was one.
     bool remove_callback(const py::object& callback);
@@ -58,9 +64,13 @@ class PythonRun : public std::enable_shared_from_this<PythonRun> {
         std::uint64_t every;
     };
     bool due() const;
+    /// Raises or warns, once, when a number is not finite.
+    void check_finite();
     void call_back();
 
     std::shared_ptr<Run> run_;
+    OnNan on_nan_;
+    bool diverged_ = false;  ///< whether check_finite() has said so
     std::vector<Callback> callbacks_;
     std::map<std::pair<int, int>, py::object> views_;
     std::vector<Observer*> films_;           ///< those that are not completed

@@ -73,14 +73,16 @@ void add_system_constants(py::handle scope) {
 
 A value is a number, or a formula of other constants in braces: "{2 * lambda}". Parameters use them in formulas, too, and follow them:
 group.params["threshold"] = "{1 + lambda}". A value after which a formula has no value raises InputError and changes nothing.)");
-    add_mapping(type);
-    type.def("__delitem__", [](const SystemConstants& self, const std::string& name) { remove(self, name); })
+    type.def(
+            "__delitem__", [](const SystemConstants& self, const std::string& name) { remove(self, name); },
+            py::arg("name"))
         .def("__repr__", [](const SystemConstants& self) {
             std::string out;
             for (const auto& c : constants_of(self.system->model, self.id))
                 out += fmt::format("{}{}={}", out.empty() ? "" : ", ", c.name, c.value);
             return fmt::format("<forage.System.Constants: {}>", out);
         });
+    add_mapping(type);
 }
 
 }  // namespace forage::python

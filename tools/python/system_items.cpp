@@ -460,12 +460,24 @@ void add_system_parameters(py::handle scope) {
 
 Those that are not set have the defaults of the type. A value that the type does not accept raises InputError at once; values outside the usual range give an
 InputWarning. `del` gives a parameter its default.)");
-    add_mapping(type);
     type.def("__delitem__", &unset, "name"_a)
         .def(
-            "update", [](const SystemParameters& self, const py::kwargs& values) { self.set(values); },
+            "clear",
+            [](const SystemParameters& self) {
+                for (const auto& name : self.names()) unset(self, name);
+            },
+            "Gives all parameters the defaults of the type.")
+        .def(
+            "update",
+            [](const SystemParameters& self, const py::object& other, const py::kwargs& values) {
+                py::dict all = py::module_::import("builtins").attr("dict")(other);
+                for (const auto& [name, value] : values) all[name] = value;
+                self.set(all);
+            },
+            "other"_a = py::tuple(),
             "Sets several at once, or none when one is wrong: update(threshold=0.3, vmPrs=0.5).")
         .def("__repr__", [](const SystemParameters& self) { return repr(self); });
+    add_mapping(type);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include "tools/api/open/moves.h"
 #include "tools/python/values.h"
 
 namespace forage::python {
@@ -69,7 +70,9 @@ py::array trials(PythonRun& run, std::size_t robot) {
     py::list fields, rows;
     for (const auto& [name, type] : trial_fields)
         fields.append(py::make_tuple(name, *type == 'U' ? fmt::format("U{}", longest) : type));
-    for (std::size_t i = 0; i < all.finished.size(); ++i) rows.append(row_of(all, i));
+    for (std::size_t i = 0; i < all.finished.size(); ++i)
+        rows.append(row_of(all, i) + py::make_tuple(truncated(run.use(), all.finished[i])));
+    fields.append(py::make_tuple("truncated", "?"));
     return structured(rows, fields);
 }
 
@@ -161,6 +164,13 @@ void add_parameters(py::module_& module) {
 Names are those of `forage run --set`: "Process/Group.parameter", "Process.parameter" of a module, "Connection.parameter" of a synapse. A value is a
 bool, int, float or str. Setting one acts from the next cycle on; it raises InputError for unknown names, values that the type refuses, and parameters
 that are read at the start only, and warns of values outside the usual range.)");
+    type.def(
+        "__delitem__",
+        [](const Parameters&, const std::string& name) {
+            throw py::type_error(
+                fmt::format("'{}' cannot be deleted: a type has all of its parameters", name));
+        },
+        py::arg("name"));
     add_mapping(type);
     type.def("__repr__", [](const Parameters& self) {
         if (const auto why = self.run->obstacle(); !why.empty())

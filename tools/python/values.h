@@ -71,21 +71,38 @@ py::object value_of(const ParameterValue& value);
 /// The assignments in a dictionary of names and values, or in a list of texts.
 std::vector<std::string> assignments(const py::object& settings);
 
-/// Makes a class whose objects have get(), set() and names() a mapping of parameters.
+/// Makes a class whose objects have get(), set() and names() a MutableMapping. What it has of its own, such
+/// as
+/// __delitem__, is added before.
 template <class Class>
 void add_mapping(Class& type) {
     using Self = typename Class::type;
-    type.def("__getitem__", &Self::get)
-        .def("__setitem__", [](const Self& self, const std::string& name,
-                               const py::object& value) { self.set(name, value); })
-        .def("__contains__",
-             [](const Self& self, const py::object& name) {
-                 return py::list(py::cast(self.names())).contains(name);
-             })
+    type.def("__getitem__", &Self::get, py::arg("name"))
+        .def(
+            "__setitem__",
+            [](const Self& self, const std::string& name, const py::object& value) { self.set(name, value); },
+            py::arg("name"), py::arg("value"))
+        .def(
+            "__contains__",
+            [](const Self& self, const py::object& name) {
+                return py::list(py::cast(self.names())).contains(name);
+            },
+            py::arg("name"))
+        .def(
+            "get",
+            [](const Self& self, const py::object& name, const py::object& otherwise) {
+                const bool there = py::list(py::cast(self.names())).contains(name);
+                return there ? self.get(name.cast<std::string>()) : otherwise;
+            },
+            py::arg("name"), py::arg("default") = py::none(), "The value, or `default` when there is none.")
         .def("__iter__", [](const Self& self) { return py::iter(py::cast(self.names())); })
         .def("__len__", [](const Self& self) { return self.names().size(); })
-        .def("keys", &Self::names, "The names of all parameters.")
+        .def("_ipython_key_completions_", &Self::names)
         .def("_repr_html_", html("parameters"));
+    const auto mapping = py::module_::import("collections.abc").attr("MutableMapping");
+    mapping.attr("register")(type);
+    for (const char* name : {"keys", "items", "values", "pop", "popitem", "clear", "update", "setdefault"})
+        if (!py::hasattr(type, name)) type.attr(name) = mapping.attr(name);
 }
 
 /// The shape of an array with one number per cell: (rows, columns), or (cells,) of a sparse group.

@@ -67,7 +67,9 @@ py::array_t<double, py::array::c_style | py::array::forcecast> weights_of(const 
 }
 
 void add_connections(py::module_& module) {
-    py::class_<PythonConnection>(module, "Connection", R"(A connection of a run: run["A to B"].)")
+    py::class_<PythonConnection> connection(module, "Connection", R"(A connection of a run: run["A to B"].)");
+    add_equality(connection);
+    connection
         .def_property_readonly(
             "name", [](const PythonConnection& self) { return about(self).name; }, "The name.")
         .def_property_readonly(

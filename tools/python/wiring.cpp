@@ -177,6 +177,18 @@ std::string repr(const model::DistanceFunction& f) {
     return fmt::format("forage.DistanceFunction.{}({})", functions[f.form.index()], arguments_of(f.form));
 }
 
+/// What pickles keep of a value: the call that its text shows.
+template <class T>
+py::tuple reduced(const T& self) {
+    return py::make_tuple(py::module_::import("forage._state").attr("value"), py::make_tuple(repr(self)));
+}
+py::tuple reduced(const PythonPattern& self) {
+    const auto* w = std::get_if<model::Weights>(&self.value);
+    if (!w || !w->file.empty()) return reduced<PythonPattern>(self);
+    return py::make_tuple(py::module_::import("forage._state").attr("weights"),
+                          py::make_tuple(w->text, w->is_list));
+}
+
 /// Values never change and are compared by their content.
 template <class T>
 void add_value(py::class_<T>& type) {
@@ -184,6 +196,7 @@ void add_value(py::class_<T>& type) {
             "__eq__", [](const T& a, const T& b) { return a == b; }, py::is_operator())
         .def("__repr__", [](const T& self) { return repr(self); })
         .def("__hash__", [](const T& self) { return py::hash(py::str(repr(self))); })
+        .def("__reduce__", [](const T& self) { return reduced(self); })
         .def("__copy__", [](const py::object& self) { return self; })
         .def("__deepcopy__", [](const py::object& self, const py::dict&) { return self; });
 }
@@ -327,6 +340,11 @@ model::DistanceFunction function_of(const py::object& value) {
 
 void add_wiring(py::module_& module) {
     add_patterns(module);
+    module.def("_weights_of_text", [](const std::string& text, bool list) {
+        model::Weights out;
+        out.text = text, out.is_list = list;
+        return PythonPattern{std::move(out)};
+    });
     add_arborizations(module);
     add_functions(module);
 }

@@ -56,6 +56,24 @@ class Table(numpy.ndarray[typing.Any, numpy.dtype[numpy.void]]):
 
         return pandas.DataFrame({name: numpy.asarray(self[name]) for name in self.dtype.names or ()})
 
+    def to_xarray(self) -> typing.Any:
+        """An xarray.Dataset along the dimension run. The parameters that vary and the seed are coordinates of the runs, so
+        .set_index(run=["Process/Group.threshold", "seed"]).unstack() makes a dimension of each."""
+        import xarray
+
+        names = list(self.dtype.names or ())
+        first = names[1 : names.index("seed") + 1] if "seed" in names else []
+        coordinates = {name: ("run", numpy.asarray(self[name])) for name in ["run", *first] if name in names}
+        return xarray.Dataset({name: ("run", numpy.asarray(self[name])) for name in names if name not in coordinates}, coordinates)
+
+    def __reduce__(self) -> typing.Any:
+        make, arguments, state = super().__reduce__()  # type: ignore[misc]
+        return make, arguments, (state, self._directory)
+
+    def __setstate__(self, state: typing.Any) -> None:
+        super().__setstate__(state[0])
+        self._directory = state[1]
+
     def _repr_html_(self) -> str | None:
         """The first rows, for notebooks."""
         if self.dtype.names is None or self.ndim != 1:
@@ -250,7 +268,10 @@ def _measures(measure: typing.Any) -> tuple[dict[str, Function], dict[str, dict[
 
 
 def _seeds(seeds: typing.Any) -> list[int]:
-    return list(range(1, operator.index(seeds) + 1)) if hasattr(seeds, "__index__") else list(seeds)
+    try:
+        return list(range(1, operator.index(seeds) + 1))
+    except TypeError:  # not one integer
+        return [operator.index(seed) for seed in seeds]
 
 
 def _settings(settings: typing.Any) -> typing.Any:
@@ -333,9 +354,9 @@ class _Work:
         until, length = self._length
         try:
             if until:
-                run.run_until(until, progress=report, **length)
+                run.run_until(until, progress=report, on_timeout="raise", **length)
             else:
-                run.run(progress=report, **length)
+                run.run(progress=report, on_timeout="raise", **length)
         except RunError as error:
             return str(error)
         return ""

@@ -91,17 +91,33 @@ class Env:
     render_mode = None
     spec = None
     _np_random = None
+    _np_random_seed = None
+
+    def _seed(self, seed=None):
+        sequence = numpy.random.SeedSequence(seed)
+        self._np_random, self._np_random_seed = numpy.random.default_rng(sequence), sequence.entropy
 
     @property
     def np_random(self):
         """A source of random numbers for callers, which reset() seeds."""
         if self._np_random is None:
-            self._np_random = numpy.random.default_rng()
+            self._seed()
         return self._np_random
+
+    @np_random.setter
+    def np_random(self, value):
+        self._np_random, self._np_random_seed = value, -1
+
+    @property
+    def np_random_seed(self):
+        """The seed of np_random; -1 when another source was set."""
+        if self._np_random_seed is None:
+            self._seed()
+        return self._np_random_seed
 
     def reset(self, *, seed=None, options=None):
         if seed is not None:
-            self._np_random = numpy.random.default_rng(seed)
+            self._seed(seed)
 
     @property
     def unwrapped(self):

@@ -11,11 +11,13 @@ installed, and have the same methods elsewhere.
 """
 from __future__ import annotations
 
+import itertools
 import operator
 import os
 import typing
 
 import numpy
+import numpy.typing
 
 from . import _forage
 from ._errors import InputError, RunError
@@ -44,6 +46,11 @@ _Path = typing.Union[str, "os.PathLike[str]"]
 _Ports = typing.Any
 """Names, one name, or names with (rows, columns); of several robots, a dictionary of these."""
 _render_modes = ["rgb_array", "human"]
+_Observation = numpy.typing.NDArray[numpy.float32]
+_Info = typing.Dict[str, typing.Any]
+_Flags = numpy.typing.NDArray[numpy.bool_]
+_Robots = typing.Dict[str, typing.Any]
+"""By robot."""
 
 
 def _ports(ports: typing.Any) -> typing.Any:
@@ -151,7 +158,58 @@ def _starts(options: typing.Any, robots: typing.Any) -> typing.Any:
     return [_pose(start[r]) for r in robots]
 
 
-class _Rendered:
+def _seed(seed: typing.Any) -> int | None:
+    """A seed of reset(): any integer that Python or NumPy has."""
+    if seed is None:
+        return None
+    number = operator.index(seed)
+    if not 0 <= number < 1 << 64:
+        raise InputError(f"reset(): the seed {number} is not from 0 to 2**64 - 1")
+    return number
+
+
+def _arguments(names: dict[str, typing.Any]) -> dict[str, typing.Any]:
+    """The arguments of __init__(), from its local names."""
+    options = names.pop("options")
+    return {**{n: v for n, v in names.items() if n not in ("self", "__class__")}, **options}
+
+
+def _number(reward: typing.Any) -> float:
+    if isinstance(reward, (str, bytes)) or numpy.ndim(reward) > 0:
+        raise TypeError(f"the reward is a number, not {reward!r}")
+    return float(reward)
+
+
+def _split(sensors: typing.Any, observation: typing.Any) -> dict[str, typing.Any]:
+    """The sensors in an observation: a dictionary of arrays with the shapes of their groups."""
+    ends = numpy.cumsum([numpy.prod(shape) for _, shape, _ in sensors])
+    return {name: part.reshape(shape) for (name, shape, _), part in zip(sensors, numpy.split(observation, ends[:-1]))}
+
+
+class _Kept:
+    """Environments are copied and pickled by their arguments and their state. Only those whose run has no probes,
+    manipulations or measures can be, and not their windows."""
+
+    _made: dict[str, typing.Any]
+    _uses = "_agents"
+
+    def __getstate__(self) -> dict[str, typing.Any]:
+        use = getattr(self, self._uses)
+        left_out = ("_made", "_agents", "_pool", "_figure", "_image", "envs")
+        attributes = {name: value for name, value in vars(self).items() if name not in left_out}
+        return {"made": self._made, "attributes": attributes, "state": None if use is None else use.save()}
+
+    def __setstate__(self, kept: dict[str, typing.Any]) -> None:
+        self.__init__(**kept["made"])  # type: ignore[misc]
+        use = getattr(self, self._uses)
+        vars(self).update(kept["attributes"])
+        if kept["state"] is None:
+            setattr(self, self._uses, None)
+        else:
+            use.restore(kept["state"])
+
+
+class _Rendered(_Kept):
     """What the environments of one run share: the run, its pictures, and its end."""
 
     _agents: _forage.AgentRun | None = None
@@ -242,7 +300,8 @@ class BugEnv(_Rendered, Env):  # type: ignore[misc]
         system the usual motor group is 3 x 3: rows forward, stand, backward; columns left, straight, right. "velocity":
         forward and turn, -1 to 1, as the nearest cell. "activity": the activities of all cells.
     reward: None: 1 in the step in which the robot reaches a target. A source of one number, such as "mean(Bug/Light)", after
-        the last cycle of the step. Or a function of this environment.
+        the last cycle of the step. Or a function of this environment, called after each step, which returns a number; it may
+        read `observation`, `reached_target`, split() and `run`, where it finds what is sensed and what modules need.
     robot: its name in the world; the first one when empty.
     render_mode: "rgb_array", "human" or None.
 
@@ -265,6 +324,7 @@ class BugEnv(_Rendered, Env):  # type: ignore[misc]
         render_mode: str | None = None,
         **options: typing.Any,
     ) -> None:
+        self._made = _arguments(dict(locals()))
         task = _task(world, system, [_agent(robot, system, sensors, motors, reward)], options)
         self._open(task, render_mode)
         self._reward = reward if callable(reward) else None
@@ -273,8 +333,10 @@ class BugEnv(_Rendered, Env):  # type: ignore[misc]
         self.action_space = _action_space(self._use.motors(0), options.get("action", "cell"))
         self.observation = self._use.observation(0)
         """What the robot has sensed by the end of the last step, for functions of the reward."""
+        self.reached_target = False
+        """Whether the robot has reached a target in the last step, for functions of the reward."""
 
-    def reset(self, *, seed: int | None = None, options: typing.Any = None) -> typing.Any:
+    def reset(self, *, seed: int | None = None, options: _Info | None = None) -> tuple[_Observation, _Info]:
         """Begins an episode, and returns (observation, info).
 
         With a seed, the run is restarted, and the same actions give the same bits. Without one, the brain keeps what it has
@@ -283,29 +345,29 @@ class BugEnv(_Rendered, Env):  # type: ignore[misc]
         Raises InputError for other options, and for a pose that is out of bounds, where something is, or where a trial ends
         at once; the next reset() begins an episode.
         """
+        seed = _seed(seed)
         super().reset(seed=seed)
         self._use.reset(seed, _starts(options, self._use.robots))
-        self.observation = self._use.observation(0)
+        self.observation, self.reached_target = self._use.observation(0), False
         if self.render_mode == "human":
             self.render()
         return self.observation, {"reached_target": False}
 
-    def step(self, action: typing.Any) -> typing.Any:
+    def step(self, action: numpy.typing.ArrayLike) -> tuple[_Observation, float, bool, bool, _Info]:
         """Runs a step, and returns (observation, reward, terminated, truncated, info).
 
         Raises InputError for an action that is not in the action space, and RunError when the episode has ended.
         """
-        self.observation, reward, terminated, truncated, reached = self._use.step_with(action)
+        self.observation, reward, terminated, truncated, self.reached_target = self._use.step_with(action)
         if self._reward is not None:
-            reward = float(self._reward(self))
+            reward = _number(self._reward(self))
         if self.render_mode == "human":
             self.render()
-        return self.observation, reward, terminated, truncated, {"reached_target": reached}
+        return self.observation, reward, terminated, truncated, {"reached_target": self.reached_target}
 
     def split(self, observation: typing.Any) -> dict[str, typing.Any]:
         """The sensors in an observation: a dictionary of arrays with the shapes of their groups."""
-        ends = numpy.cumsum([numpy.prod(shape) for _, shape, _ in self.sensors])
-        return {name: part.reshape(shape) for (name, shape, _), part in zip(self.sensors, numpy.split(observation, ends[:-1]))}
+        return _split(self.sensors, observation)
 
 
 class BugParallelEnv(_Rendered, ParallelEnv):  # type: ignore[misc]
@@ -329,6 +391,8 @@ class BugParallelEnv(_Rendered, ParallelEnv):  # type: ignore[misc]
         render_mode: str | None = None,
         **options: typing.Any,
     ) -> None:
+        self._made = _arguments(dict(locals()))
+
         def of(what: typing.Any, robot: str) -> typing.Any:
             return what[robot] if isinstance(what, dict) else what
 
@@ -348,23 +412,28 @@ class BugParallelEnv(_Rendered, ParallelEnv):  # type: ignore[misc]
         self.action_spaces = {n: _action_space(self._use.motors(i), action) for n, i in self._numbers.items()}
 
     def observation_space(self, agent: str) -> typing.Any:
-        return self.observation_spaces[agent]
+        return self._of(self.observation_spaces, agent)
 
     def action_space(self, agent: str) -> typing.Any:
-        return self.action_spaces[agent]
+        return self._of(self.action_spaces, agent)
 
-    def reset(self, seed: int | None = None, options: typing.Any = None) -> typing.Any:
+    def _of(self, spaces: dict[str, typing.Any], agent: str) -> typing.Any:
+        if agent not in self.possible_agents:
+            raise InputError(f"there is no agent {agent!r}; there are {', '.join(self.possible_agents)}")
+        return spaces[agent]
+
+    def reset(self, seed: int | None = None, options: _Info | None = None) -> tuple[_Robots, _Robots]:
         """Begins an episode of all agents, and returns (observations, infos), as BugEnv does.
 
         options={"start": {robot: (x, y, yaw), ...}} places the robots, which must not overlap.
         """
-        self._use.reset(seed, _starts(options, self.possible_agents))
+        self._use.reset(_seed(seed), _starts(options, self.possible_agents))
         self.agents = list(self.possible_agents)
         if self.render_mode == "human":
             self.render()
         return ({n: self._use.observation(i) for n, i in self._numbers.items()}, {n: {"reached_target": False} for n in self.agents})
 
-    def step(self, actions: typing.Any) -> typing.Any:
+    def step(self, actions: _Robots) -> tuple[_Robots, _Robots, _Robots, _Robots, _Robots]:
         """Runs a step with the actions of all agents, and returns (observations, rewards, terminations, truncations, infos)."""
         run = self._use
         missing, unknown = set(self.agents) - set(actions), set(actions) - set(self.possible_agents)
@@ -379,22 +448,52 @@ class BugParallelEnv(_Rendered, ParallelEnv):  # type: ignore[misc]
         observations, rewards, terminations, truncations = ({n: p[k] for n, p in parts.items()} for k in range(4))
         infos = {n: {"reached_target": p[4]} for n, p in parts.items()}
         if self._reward is not None:
-            rewards = {n: float(self._reward(self, n)) for n in parts}
+            rewards = {n: _number(self._reward(self, n)) for n in parts}
         self.agents = [n for n, p in parts.items() if not (p[2] or p[3])]
         if self.render_mode == "human":
             self.render()
         return observations, rewards, terminations, truncations, infos
 
 
-class BugVectorEnv(VectorEnv):  # type: ignore[misc]
+class _One:
+    """One of the environments of a BugVectorEnv: what the function of a reward, call() and get_attr() see."""
+
+    def __init__(self, several: BugVectorEnv, number: int) -> None:
+        self._several, self._number = several, number
+        self.sensors = several.sensors
+        self.reached_target = False
+
+    @property
+    def observation(self) -> _Observation:
+        """As that of BugEnv."""
+        row: _Observation = self._several.observations[self._number]
+        return row
+
+    @property
+    def run(self) -> _forage.Run:
+        """As that of BugEnv."""
+        return self._several._use.run(self._number)
+
+    def split(self, observation: typing.Any) -> dict[str, typing.Any]:
+        """As that of BugEnv."""
+        return _split(self.sensors, observation)
+
+    def render(self) -> typing.Any:
+        """A picture, as that of BugEnv."""
+        return self._several._use.picture(self._number)
+
+
+class BugVectorEnv(_Kept, VectorEnv):  # type: ignore[misc]
     """Worlds side by side, one robot each, as a vector environment of Gymnasium.
 
-    All of a step runs on `threads` threads (0: one per core), without Python. The options are those of BugEnv; the reward is
-    None or a source. Environment i has the seed of environment 0 plus i. An environment whose episode has ended begins the
+    All of a step runs on `threads` threads (0: one per core, where that is faster), without Python. The options are those of
+    BugEnv. A function for the reward is called for each environment, with one of `envs`: it has observation, reached_target, split() and run
+    as a BugEnv has them. Environment i has the seed of environment 0 plus i. An environment whose episode has ended begins the
     next one in the step that follows (Gymnasium calls this NEXT_STEP); its action is then ignored, and its reward is 0.
     """
 
-    metadata = {"render_modes": [], "autoreset_mode": _next_step}
+    metadata = {"render_modes": ["rgb_array"], "render_fps": 5, "autoreset_mode": _next_step}
+    _uses = "_pool"
     _pool: _forage.AgentPool | None = None
 
     def __init__(
@@ -408,19 +507,27 @@ class BugVectorEnv(VectorEnv):  # type: ignore[misc]
         reward: typing.Any = None,
         robot: str = "",
         threads: int = 0,
+        render_mode: str | None = None,
         **options: typing.Any,
     ) -> None:
-        if callable(reward):
-            raise InputError("the reward of worlds side by side is a source, such as 'mean(Bug/Light)', not a function")
+        self._made = _arguments(dict(locals()))
+        if render_mode not in (None, "rgb_array"):
+            raise InputError(f"{render_mode!r} is not a way to render worlds side by side; there is rgb_array, and None")
         task = _task(world, system, [_agent(robot, system, sensors, motors, reward)], options)
         self.num_envs = num_envs
-        self.render_mode = None
+        self.render_mode = render_mode
+        self._reward = reward if callable(reward) else None
         self._pool = _forage.AgentPool(num_envs, threads, **task)
         self.sensors = self._pool.sensors()
         self.single_observation_space = _observation_space(self.sensors)
         self.single_action_space = _action_space(self._pool.motors(), options.get("action", "cell"))
         self.observation_space = batch_space(self.single_observation_space, num_envs)
         self.action_space = batch_space(self.single_action_space, num_envs)
+        self.observations = numpy.zeros(self.observation_space.shape, numpy.float32)
+        """What the robots have sensed by the end of the last step: a row per environment."""
+        self.envs = tuple(_One(self, i) for i in range(num_envs))
+        """The environments, each with observation, run, split() and render() as a BugEnv has them."""
+        self._ended = numpy.zeros(num_envs, bool)
 
     @property
     def threads(self) -> int:
@@ -433,7 +540,7 @@ class BugVectorEnv(VectorEnv):  # type: ignore[misc]
             raise RunError("this environment is closed")
         return self._pool
 
-    def reset(self, *, seed: typing.Any = None, options: typing.Any = None) -> typing.Any:
+    def reset(self, *, seed: typing.Any = None, options: _Info | None = None) -> tuple[_Observation, _Info]:
         """Begins an episode everywhere. `seed` is a number for environment 0, or one number or None per environment.
 
         options={"start": (x, y, yaw)} places all robots there; an array with a row per environment places each of them. With {"reset_mask": [True,
@@ -443,9 +550,9 @@ class BugVectorEnv(VectorEnv):  # type: ignore[misc]
         count = self.num_envs
         seeds: list[int | None] = []
         if seed is not None and numpy.ndim(seed) == 0:
-            seeds = [operator.index(seed) + i for i in range(count)]
+            seeds = [_seed(operator.index(seed) + i) for i in range(count)]
         elif seed is not None:
-            seeds = [None if s is None else operator.index(s) for s in seed]
+            seeds = [_seed(s) for s in seed]
         if seeds and len(seeds) != count:
             raise InputError(f"{len(seeds)} seeds for {count} environments")
         start, mask = _option(options, "start", "reset_mask")
@@ -454,8 +561,11 @@ class BugVectorEnv(VectorEnv):  # type: ignore[misc]
         if chosen.dtype != bool or chosen.shape != (count,):
             raise InputError(f"reset(): the reset_mask {mask!r} is not {count} times True or False")
         super().reset(seed=seeds[0] if seeds else None)
-        observations = self._use.reset(seeds, starts, chosen)
-        return observations, {"reached_target": numpy.zeros(count, bool), "_reached_target": chosen}
+        self.observations = self._use.reset(seeds, starts, chosen)
+        self._ended &= ~chosen
+        for one in itertools.compress(self.envs, chosen):
+            one.reached_target = False
+        return self.observations, {"reached_target": numpy.zeros(count, bool), "_reached_target": chosen}
 
     def set(self, name: typing.Any, values: typing.Any = None) -> None:
         """Sets a parameter or the weights of a connection everywhere, as BugEnv.set() does: one value for all environments, or one for each.
@@ -472,13 +582,39 @@ class BugVectorEnv(VectorEnv):  # type: ignore[misc]
                 raise InputError(f"set(): {len(each)} values of {what} for {self.num_envs} environments")
             self._use.set_parameters([_assignment(what, v) for v in each])
 
-    def step(self, actions: typing.Any) -> typing.Any:
+    def step(self, actions: numpy.typing.ArrayLike) -> tuple[_Observation, numpy.typing.NDArray[numpy.float64], _Flags, _Flags, _Info]:
         """Runs a step everywhere. All parts of what it returns have one row per environment.
 
         Raises InputError, before any environment steps, for an action that is not in the action space.
         """
-        observations, rewards, terminated, truncated, reached = self._use.step(actions)
-        return observations, rewards, terminated, truncated, {"reached_target": reached, "_reached_target": numpy.ones(self.num_envs, bool)}
+        self.observations, rewards, terminated, truncated, reached = self._use.step(actions)
+        if self._reward is not None:
+            for one, there in zip(self.envs, reached.tolist()):
+                one.reached_target = there
+            rewards[:] = [0.0 if begun else _number(self._reward(one)) for one, begun in zip(self.envs, self._ended.tolist())]
+        self._ended = terminated | truncated
+        return self.observations, rewards, terminated, truncated, {"reached_target": reached, "_reached_target": numpy.ones(self.num_envs, bool)}
+
+    def render(self) -> tuple[typing.Any, ...] | None:
+        """The pictures of all environments, with render_mode="rgb_array"; None without it."""
+        return None if self.render_mode is None else self.call("render")
+
+    def call(self, name: str, *arguments: typing.Any, **named: typing.Any) -> tuple[typing.Any, ...]:
+        """Calls the method with this name of each of `envs`, and returns the results; an attribute that is no method is its own result."""
+        found = [getattr(one, name) for one in self.envs]
+        return tuple(f(*arguments, **named) if callable(f) else f for f in found)
+
+    def get_attr(self, name: str) -> tuple[typing.Any, ...]:
+        """The attribute with this name of each of `envs`, as in env.get_attr("run")."""
+        return tuple(getattr(one, name) for one in self.envs)
+
+    def set_attr(self, name: str, values: typing.Any) -> None:
+        """Sets an attribute of each of `envs`, for functions of the reward: a list or tuple has one value for each, anything else is the value of all."""
+        each = list(values) if isinstance(values, (list, tuple)) else [values] * self.num_envs
+        if len(each) != self.num_envs:
+            raise InputError(f"set_attr(): {len(each)} values of {name} for {self.num_envs} environments")
+        for one, value in zip(self.envs, each):
+            setattr(one, name, value)
 
     def close_extras(self, **options: typing.Any) -> None:
         self._pool = None
