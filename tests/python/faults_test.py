@@ -81,6 +81,7 @@ def test_a_class_that_is_declared_again_replaces_the_first_one():
     """As a notebook does whose cell is executed again."""
 
     def activity(number):
+        @forage.neuron
         class Again:
             act = forage.state(0.0)
 
@@ -88,7 +89,7 @@ def test_a_class_that_is_declared_again_replaces_the_first_one():
                 cells.act = cells.act * 0 + number
 
         with forage.System("again") as system:
-            system.add_process("P").add_group("A", 2, type=forage.neuron(Again))
+            system.add_process("P").add_group("A", 2, type=Again)
         run = forage.open(system)
         run.run(cycles=2)
         return run

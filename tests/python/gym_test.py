@@ -421,7 +421,7 @@ def test_agents_of_one_run_are_rewarded_and_end_on_their_own():
 def test_worlds_side_by_side_have_the_numbers_of_single_ones_on_any_number_of_threads():
     def play(threads):
         env = BugVectorEnv(5, WORLD, sensors=["target", "gps"], max_steps=25, threads=threads)
-        assert env.threads == min(threads, 5)
+        assert env.threads == min(threads, 5) or threads == 0  # one or several, as is faster
         out = [env.reset(seed=11)]
         assert env.observation_space.contains(out[0][0])
         for step in range(60):
@@ -431,8 +431,8 @@ def test_worlds_side_by_side_have_the_numbers_of_single_ones_on_any_number_of_th
         assert env.closed
         return out
 
-    one, three = play(1), play(3)
-    for a, b in zip(one, three):
+    one, three, usual = play(1), play(3), play(0)
+    for a, b in [*zip(one, three), *zip(one, usual)]:
         assert same([a[:-1]], [b[:-1]]) and (a[-1]["reached_target"] == b[-1]["reached_target"]).all()
     for i in range(5):
         env = BugEnv(WORLD, sensors=["target", "gps"], max_steps=25)
@@ -489,7 +489,7 @@ def test_an_environment_is_not_used_by_two_threads_at_once():
 
 def distance(env):
     """A reward that reads all that a function may read."""
-    x, y, _ = env.split(env.observation)["gps"].ravel()
+    x, y, _ = env.split(env.observation)["Bug/gps"].ravel()
     return -abs(x) - abs(y) + 10 * env.reached_target + len(env.run.trials)
 
 
@@ -522,7 +522,7 @@ def test_worlds_side_by_side_are_reached_by_name():
     single = BugEnv(WORLD, sensors=["gps"], render_mode="rgb_array")
     single.reset(seed=2)
     assert len(pictures) == 2 and (pictures[1] == single.render()).all()
-    assert env.call("split", observations[0])[1]["gps"].shape == (1, 3) and BugVectorEnv(2, WORLD).render() is None
+    assert env.call("split", observations[0])[1]["Bug/gps"].size == 3 and BugVectorEnv(2, WORLD).render() is None
     env.set_attr("goal", [1, 2])
     assert env.get_attr("goal") == (1, 2)
     env.set_attr("goal", 3)
@@ -570,7 +570,9 @@ def test_the_rules_of_pettingzoos_tests():
         for one in (env, twin):
             for agent in one.possible_agents:
                 one.action_space(agent).seed(seed)
-        (observations, infos), (others, _) = env.reset(seed=seed), twin.reset(seed=seed)
+        observations, infos = env.reset(seed=seed)
+        others = twin.reset(seed=seed)[0]
+        assert all((observations[agent] == others[agent]).all() for agent in env.agents)
         assert env.agents == env.possible_agents and set(infos) == set(observations) == set(env.agents)
         gone = set()
         while env.agents:
@@ -592,7 +594,7 @@ def test_the_rules_of_vector_environments():
     infos = [env.reset(seed=3)[1]]
     assert env.np_random_seed == 3
     for step in range(6):
-        observations, rewards, terminated, truncated, info = env.step(env.action_space.sample())
+        observations, rewards, terminated, truncated, info = env.step(numpy.full(3, 4))  # the robots stand
         assert env.observation_space.contains(observations) and rewards.dtype == numpy.float64
         assert [part.shape for part in (rewards, terminated, truncated)] == [(3,)] * 3 and terminated.dtype == truncated.dtype == bool
         assert truncated.all() == (step == 3)

@@ -284,9 +284,9 @@ def test_trials_are_those_of_the_table(dac, command, tmp_path):
     command("run", SYSTEMS / "dac_foraging.iqr", "--world", WORLD, "--trials", 3, "-o", tmp_path / "out")
     with open(tmp_path / "out/trials.csv", newline="") as file:
         rows = list(csv.DictReader(file))
-    assert len(trials) == 3 and trials.dtype.names[0] == "trial"
+    assert len(trials) == 3 and trials.dtype.names[0] == "trial" and trials.dtype.names[-1] == "truncated"
     for trial, row in zip(trials, rows):
-        for name in trials.dtype.names:
+        for name in trials.dtype.names[:-1]:
             if name == "patches":
                 assert trial[name] == row[name]
             elif name == "reached_target":

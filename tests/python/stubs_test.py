@@ -12,10 +12,14 @@ from conftest import PROJECT
 PACKAGE = os.environ["PYTHONPATH"]
 # Some packages are imported when they are needed. The fallback for gymnasium is not annotated.
 CONFIGURATION = "[mypy]\nignore_missing_imports = True\n[mypy-forage._spaces]\nignore_errors = True\n"
-# The metaclass and the constructor are pybind11's; annotations use names that are imported for mypy only.
+# The metaclass and the constructor are pybind11's; annotations use names that are imported for mypy only. Private functions take
+# arguments without names. typing.MutableMapping is positional where collections.abc.MutableMapping is not.
 ALLOWED = r"""forage(\._forage)?\._?[A-Z]\w*(\.[A-Z]\w*)?
 forage(\._forage)?\._?[A-Z]\w*(\.[A-Z]\w*)?\.__init__
 forage\._\w+\.(Any|Sequence|DTypeLike|NDArray|numpy)
+forage\._forage\._(Draws|Experiment)\.\w+
+forage\._forage\._[a-z_]+
+forage(\._forage)?\.(System\.)?(Parameters|Constants)\.(get|pop|setdefault|update)
 """
 PROGRAM = """
 import forage

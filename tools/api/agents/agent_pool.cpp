@@ -1,6 +1,8 @@
 #include "tools/api/agents/agent_pool.h"
 
 #include <algorithm>
+#include <chrono>
+#include <limits>
 #include <utility>
 
 #include <fmt/format.h>
@@ -33,11 +35,21 @@ AgentPool::AgentPool(const std::shared_ptr<const AgentTask>& task, std::size_t r
     for (std::size_t i = 1; i < runs; ++i) runs_.emplace_back(runs_.front(), task->options().input.seed + i);
     const auto usable = static_cast<std::size_t>(threads > 0 ? threads : cores());
     threads_ = std::make_unique<engine::ThreadPool>(static_cast<int>(std::min(usable, runs)));
+    if (threads == 0) choice_.emplace();
 }
 
 AgentPool::~AgentPool() = default;
 
 int AgentPool::threads() const { return threads_->threads(); }
+
+void AgentPool::Choice::took(double seconds) {
+    if (step_ == 0) best_.fill(std::numeric_limits<double>::infinity());
+    if (step_ < 2 * tries) {
+        double& best = best_[several() ? 1 : 0];
+        best = std::min(best, seconds);
+    }
+    step_ = (step_ + 1) % period;
+}
 
 void AgentPool::reset(std::span<const std::optional<std::uint64_t>> seeds, std::span<const Pose2> starts,
                       std::span<const bool> mask, std::span<float> observations) {
@@ -92,7 +104,14 @@ void AgentPool::step(std::span<const double> actions, const Rows& rows) {
         rows.terminated[i] = outcome.terminated, rows.truncated[i] = outcome.truncated;
         rows.reached_target[i] = outcome.reached_target;
     };
-    threads_->run(static_cast<int>(runs_.size()), work);
+    const auto start = std::chrono::steady_clock::now();
+    const int count = static_cast<int>(runs_.size());
+    if (!choice_ || choice_->several())
+        threads_->run(count, work);
+    else
+        for (int i = 0; i < count; ++i) work(i, 0);
+    if (choice_)
+        choice_->took(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
 }
 
 }  // namespace forage

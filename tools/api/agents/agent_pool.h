@@ -1,6 +1,7 @@
 // Many runs with one agent each, stepped together on several threads.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -28,8 +29,8 @@ class AgentPool {
         std::span<bool> terminated, truncated, reached_target;
     };
 
-    /// Run i has the seed of the task plus i. `threads` is the largest number of threads; 0: one per core.
-    /// Throws InputError.
+    /// Run i has the seed of the task plus i. `threads` is the number of threads; 0: one per core in steps
+    /// where that is faster than one. Throws InputError.
     AgentPool(const std::shared_ptr<const AgentTask>& task, std::size_t runs, int threads = 0);
     ~AgentPool();
 
@@ -52,8 +53,23 @@ class AgentPool {
     void step(std::span<const double> actions, const Rows& rows);
 
   private:
+    /// Which is faster for a step, one thread or several: it depends on the runs and on what else the cores
+    /// do. So both are tried in the first few of each period of steps.
+    class Choice {
+      public:
+        bool several() const { return step_ < 2 * tries ? step_ >= tries : best_[1] < best_[0]; }
+        /// Takes the seconds of a step.
+        void took(double seconds);
+
+      private:
+        static constexpr int tries = 4, period = 512;
+        int step_ = 0;
+        std::array<double, 2> best_{};  ///< of one thread, and of several
+    };
+
     std::vector<AgentRun> runs_;
     std::unique_ptr<engine::ThreadPool> threads_;
+    std::optional<Choice> choice_;  ///< empty when the number of threads was given
 };
 
 }  // namespace forage
