@@ -51,7 +51,7 @@ py::array view(const PythonProbe& self) {
     const py::capsule keeper(memory, [](void* p) { delete static_cast<Memory*>(p); });
     py::array_t<double> out(shape, (*memory)->data(), keeper);
     out.attr("flags").attr("writeable") = false;
-    return std::move(out);
+    return out;
 }
 
 /// A method of Recording, called with what the probe holds.
