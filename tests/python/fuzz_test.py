@@ -144,7 +144,7 @@ def attempt(thing, name, given_values, named=()):
             warnings.simplefilter("ignore")
             member = getattr(thing, name)
             if not callable(member):
-                if given_values:
+                if given_values and not isinstance(thing, type):
                     setattr(thing, name, given_values[0])
                 return
             if name == "run" and not given_values and not named:
