@@ -3,6 +3,8 @@ processes: it works, or raises InputError, RunError, TypeError or ValueError wit
 import inspect
 import os
 import pathlib
+import shutil
+import tempfile
 import threading
 import time
 import warnings
@@ -13,11 +15,13 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import forage
-from conftest import SYSTEMS, WORLD
+from conftest import SYSTEMS
 from forage.gym import BugEnv, BugParallelEnv, BugVectorEnv
 
-REACTIVE = SYSTEMS / "reactive_foraging.iqr"
-TWO = SYSTEMS / "worlds/two_bugs.world"
+# A system saves itself to the file that it was read from: the calls have files of their own.
+FOLDER = tempfile.TemporaryDirectory()
+shutil.copytree(SYSTEMS, FOLDER.name, dirs_exist_ok=True)
+REACTIVE, WORLD, TWO = (pathlib.Path(FOLDER.name, name) for name in ("reactive_foraging.iqr", "worlds/basic_arena.world", "worlds/two_bugs.world"))
 NAMES = [
     "Bug/Light",
     "Bug/Light:act",
