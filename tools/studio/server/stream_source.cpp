@@ -19,10 +19,10 @@ class Cells final : public StreamSource {
   public:
     explicit Cells(observe::Source source) : source_(std::move(source)) {}
     std::uint32_t rows() const override {
-        return source_.what().mean ? 1 : static_cast<std::uint32_t>(source_.what().cells.height);
+        return source_.what().one_number() ? 1 : static_cast<std::uint32_t>(source_.what().cells.height);
     }
     std::uint32_t columns() const override {
-        return source_.what().mean ? 1 : static_cast<std::uint32_t>(source_.what().cells.width);
+        return source_.what().one_number() ? 1 : static_cast<std::uint32_t>(source_.what().cells.width);
     }
     std::string label() const override { return source_.what().label; }
     void read(Run& run, std::span<double> out) const override { source_.read(run.simulation(), out); }

@@ -1,6 +1,7 @@
 // The studio in a browser's worker: a session without a server. web/src/browser/worker.ts calls these functions, and one page talks to it.
 #include <array>
 #include <chrono>
+#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,6 +52,7 @@ extern "C" {
 /// Opens a system with a world, which may be empty. Returns what is wrong, until the next call; empty when the session has begun.
 EMSCRIPTEN_KEEPALIVE const char* forage_open(const char* system, const char* world) {
     static std::string wrong;
+    setenv("FONTCONFIG_FILE", "/forage/fonts/fonts.conf", 1);
     try {
         RunInput input;
         input.system = system, input.world = world;

@@ -11,6 +11,7 @@ interface Engine {
     readFile(path: string): Uint8Array;
     writeFile(path: string, content: string | Uint8Array): void;
     analyzePath(path: string): { exists: boolean };
+    createLazyFile(folder: string, name: string, url: string, reads: boolean, writes: boolean): void;
   };
   IDBFS: unknown;
 }
@@ -31,6 +32,7 @@ async function load(): Promise<Engine> {
   const from = new URL('../forage-web.mjs', self.location.href);
   const { default: create } = (await import(/* @vite-ignore */ from.href)) as { default(options: object): Promise<Engine> };
   const [engine, keeps] = await Promise.all([create({ locateFile: (name: string) => new URL(name, from).href }), first()]);
+  for (const name of ['DejaVuSans.ttf', 'DejaVuSans-Bold.ttf']) engine.FS.createLazyFile('/forage/fonts', name, new URL(`../fonts/${name}`, self.location.href).href, true, false);
   engine.FS.mkdirTree(home);
   let failed: unknown = 'another tab of this browser keeps the files of the studio';
   if (keeps) {
