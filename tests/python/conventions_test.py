@@ -68,6 +68,8 @@ def test_signatures_have_names_and_defaults():
         (lambda run: forage.open(REACTIVE, WORLD), "open() takes 1 positional argument, not 2"),
         (lambda run: forage.open(REACTIVE, seed=1.5), "open(): seed is an integer, not 1.5"),
         (lambda run: forage.open(REACTIVE, seed=numpy.float32(1.5)), "open(): seed is an integer, not 1.5"),
+        (lambda run: forage.open(REACTIVE, seed=numpy.array(1.5)), "open(): seed is an integer, not array(1.5)"),
+        (lambda run: forage.open(REACTIVE, seed=numpy.zeros(3)), "open(): seed is an integer, not array([0., 0., 0.])"),
         (lambda run: forage.open(REACTIVE, seed=-1), "open(): seed cannot be -1"),
         (lambda run: forage.open(REACTIVE, seed=2**64), "open(): seed cannot be 18446744073709551616"),
         (lambda run: run.run(cycles="a"), "run(): cycles is an integer or None, not 'a'"),
@@ -130,7 +132,9 @@ def test_groups_and_probes_are_arrays(run):
     assert numpy.array_equal(numpy.asarray(group), group.act) and numpy.asarray(group, dtype="f4").dtype == numpy.float32
     assert (group[0, :3] == group.act[0, :3]).all() and numpy.max(group) == group.act.max()
     assert numpy.asarray(probe).shape == (10, 1, 32) and (probe[-1] == group.act).all()
-    assert numpy.shares_memory(numpy.asarray(group), group.act)
+    assert numpy.shares_memory(numpy.asarray(group), group.act) and numpy.shares_memory(group.__array__(copy=False), group.act)
+    with pytest.raises(ValueError, match="another dtype"):
+        group.__array__("f4", copy=False)
 
 
 def test_the_data_of_a_probe_is_a_view_that_stays_as_it_is(run):

@@ -42,6 +42,18 @@ def test_runs_are_copied_and_pickled_by_their_state(dac):
         assert twin.digest() == dac.digest()
 
 
+def test_copies_keep_what_happens_when_a_number_is_not_finite():
+    system = forage.System("diverging")
+    grow = system.add_neuron_type("grow", "x' = x * x * 1e200 + 1e200; output x'")
+    system.add_process("P").add_group("A", 2, type=grow)
+    run = forage.open(system, on_nan="raise")
+    for again in (copy.copy(run), pickle.loads(pickle.dumps(run)), forage.resume(run.save_state(), on_nan="raise")):
+        with pytest.raises(forage.RunError, match="P/A"):
+            again.run(cycles=10)
+    with pytest.raises(forage.InputError, match="on_nan"):
+        forage.resume(run.save_state(), on_nan="raises")
+
+
 def test_a_run_that_computes_only_what_is_observed_is_copied():
     with open_dac(observe=["Bug/Light"], seed=3) as run:
         run.run(cycles=20)

@@ -294,10 +294,22 @@ void add_agents(py::module_& module) {
             "motors", [](const PythonAgents& self, std::size_t i) { return ports(self.run.motors(i)); },
             "agent"_a)
         .def("picture", &picture)
-        .def_property_readonly("run", [](PythonAgents& self) { return shown_run(self.run, self.shown); })
-        .def("save", [](PythonAgents& self) { return py::bytes(self.run.save()); })
+        .def_property_readonly("run",
+                               [](PythonAgents& self) {
+                                   const InUse use(self.in_use);
+                                   return shown_run(self.run, self.shown);
+                               })
+        .def("save",
+             [](PythonAgents& self) {
+                 const InUse use(self.in_use);
+                 return py::bytes(self.run.save());
+             })
         .def(
-            "restore", [](PythonAgents& self, const std::string& state) { self.run.restore(state); },
+            "restore",
+            [](PythonAgents& self, const std::string& state) {
+                const InUse use(self.in_use);
+                self.run.restore(state);
+            },
             "state"_a)
         .def_property_readonly("robots", [](const PythonAgents& self) {
             std::vector<std::string> out;
@@ -334,6 +346,7 @@ void add_agents(py::module_& module) {
         .def(
             "run",
             [](PythonPool& self, std::int64_t i) {
+                const InUse use(self.in_use);
                 const auto at = index_in(self, i);
                 return shown_run(self.pool[at], self.shown[at]);
             },

@@ -54,9 +54,14 @@ void add_array(Class& type, Numbers numbers) {
     type.def(
             "__array__",
             [numbers](const Self& self, const py::object& dtype, const py::object& copy) {
+                const py::object all = numbers(self);
                 const py::object array =
-                    py::module_::import("numpy").attr("asarray")(numbers(self), py::arg("dtype") = dtype);
-                return !copy.is_none() && copy.cast<bool>() ? array.attr("copy")() : array;
+                    py::module_::import("numpy").attr("asarray")(all, py::arg("dtype") = dtype);
+                if (copy.is_none()) return array;
+                if (copy.cast<bool>()) return array.attr("copy")();
+                if (!array.attr("dtype").equal(all.attr("dtype")))
+                    throw py::value_error("numbers of another dtype are a copy, and copy is False");
+                return array;
             },
             py::arg("dtype") = py::none(), py::arg("copy") = py::none())
         .def(

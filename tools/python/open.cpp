@@ -64,7 +64,8 @@ std::shared_ptr<PythonRun> open_run(const std::variant<Path, SystemPointer>& sys
 }
 
 /// Resumes a run from what save() wrote: bytes, a file that is open to be read, or the path of a file.
-std::shared_ptr<PythonRun> resume_run(const py::object& state, bool trusted) {
+std::shared_ptr<PythonRun> resume_run(const py::object& state, bool trusted, const std::string& on_nan) {
+    const auto nan = static_cast<OnNan>(choice(on_nan, on_nan_names, "on_nan"));
     std::string bytes;
     if (py::isinstance<py::bytes>(state))
         bytes = state.cast<std::string>();
@@ -75,7 +76,7 @@ std::shared_ptr<PythonRun> resume_run(const py::object& state, bool trusted) {
         bytes.assign(std::istreambuf_iterator<char>(in), {});
     }
     const py::gil_scoped_release others;
-    return std::make_shared<PythonRun>(resume(bytes, trusted));
+    return std::make_shared<PythonRun>(resume(bytes, trusted), nan);
 }
 
 std::shared_ptr<PythonRun> restart(PythonRun& self, std::uint64_t seed) {
@@ -95,8 +96,9 @@ py::object save(PythonRun& self, const py::object& file) {
 }
 
 py::tuple reduce(PythonRun& self) {
+    const char* on_nan = on_nan_names[static_cast<int>(self.on_nan())];
     return py::make_tuple(py::module_::import("forage._state").attr("resumed"),
-                          py::make_tuple(save(self, py::none())));
+                          py::make_tuple(save(self, py::none()), on_nan));
 }
 
 /// The function that shows progress: none, the caller's, or a bar for True.
@@ -390,12 +392,18 @@ on_nan: what happens when a number becomes NaN or infinite for the first time: "
 
 Raises InputError with all mistakes, and issues InputWarning.)");
     module.def(
-        "resume", [](const py::object& state) { return resume_run(state, false); }, "state"_a,
+        "resume",
+        [](const py::object& state, const std::string& on_nan) { return resume_run(state, false, on_nan); },
+        "state"_a, py::kw_only(), "on_nan"_a = "warn",
         R"(Continues a run from what Run.save_state() returned or wrote: bytes, a path, or a file that is open to read bytes.
+
+on_nan: as for forage.open().
 
 Plugins that the state names are loaded if `forage trust` has trusted their folder, or this program has loaded them before.
 Raises InputError when the state is damaged, or the files of the system or the world have changed.)");
-    module.def("_resumed", [](const py::bytes& state) { return resume_run(state, true); });
+    module.def("_resumed", [](const py::bytes& state, const std::string& on_nan) {
+        return resume_run(state, true, on_nan);
+    });
 }
 
 }  // namespace forage::python

@@ -114,7 +114,8 @@ It can be read while the run lasts and after it is closed. NumPy takes it as the
 group, (rows,) of a mean or maximum, and (rows, targets, sources) of synapses. A cycle that is recorded later adds its row to the next view.)")
         .def(
             "take", [](const PythonProbe& p) { return recording(p, p.use().take()); },
-            "Hands over what was recorded, as a Recording, and forgets it. It copies no numbers.")
+            "Hands over what was recorded, as a Recording, and forgets it. It copies the numbers only while "
+            "a view of `data` lives.")
         .def("to_xarray", exported("to_xarray"), "What is recorded as a xarray.DataArray, see Recording.")
         .def("to_pandas", exported("to_pandas"), "What is recorded as a pandas.DataFrame, see Recording.")
         .def("to_neo", exported("to_neo"), "What is recorded as a neo.AnalogSignal, see Recording.")

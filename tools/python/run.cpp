@@ -159,7 +159,13 @@ bool PythonRun::advance(const RunLength& length, const py::object& progress, boo
     LateInterrupt interrupt;
     const bool signals = in_main_thread(), shown = !progress.is_none();
     auto next_signals = Clock::now() + between_signals, next_report = Clock::now();
-    const auto after_cycle = [&](const StopCondition& stop, const StopOrigin& origin) {
+    Diagnostics mistakes;
+    RunLength whole = length;  // `left` is shorter after a trial that was truncated
+    whole.in_code = true;
+    const auto stop = StopCondition::make(whole, *run_, mistakes);
+    throw_errors(mistakes);
+    const auto origin = StopCondition::begin(*run_);
+    const auto after_cycle = [&](const StopCondition&, const StopOrigin&) {
         if (due()) {
             const py::gil_scoped_acquire python;
             call_back();
@@ -191,7 +197,10 @@ bool PythonRun::advance(const RunLength& length, const py::object& progress, boo
         begin_trial(*run_);
         end.timeout.clear();
         const std::size_t ended = run_->environment()->trials(0).size() - before;
-        if (ended >= *left.trials) break;
+        if (ended >= *left.trials) {
+            end.held = stop.holds(*run_);
+            break;
+        }
         *left.trials -= ended;
     }
     interrupt.deliver();

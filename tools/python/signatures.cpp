@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "tools/python/python.h"
+#include "tools/python/values.h"
 
 namespace forage::python {
 namespace {
@@ -62,7 +63,7 @@ py::object sentence(PyObject* self, PyObject* arguments, PyObject* keywords, boo
 
 /// Whether a value is a number such as numpy.float32(1.5), which pybind11 would round to an integer.
 bool may_be_fraction(PyObject* value) {
-    return PyNumber_Check(value) && !PyIndex_Check(value) && !PyFloat_Check(value);
+    return PyNumber_Check(value) && !PyFloat_Check(value) && !is_integer(value);
 }
 
 /// Whether one of the arguments is such a number, and an integer is needed. Raises TypeError then.
@@ -73,7 +74,8 @@ bool refused(PyObject* self, PyObject* arguments, PyObject* keywords) {
     PyObject *name = nullptr, *value = nullptr;
     for (Py_ssize_t at = 0; keywords && PyDict_Next(keywords, &at, &name, &value);)
         maybe = maybe || may_be_fraction(value);
-    if (!maybe) return false;
+    const auto* r = static_cast<const Record*>(PyCapsule_GetPointer(self, PyCapsule_GetName(self)));
+    if (!maybe || !std::strstr(r->signature, "int")) return false;
     const py::object what = sentence(self, arguments, keywords, true);
     if (py::len(what) == 0) return false;
     PyErr_SetObject(PyExc_TypeError, what.ptr());
@@ -88,7 +90,9 @@ PyObject* call(PyObject* self, PyObject* arguments, PyObject* keywords) {
         if (out || !PyErr_ExceptionMatches(PyExc_TypeError)) return out;
         py::error_already_set raised;
         const std::string text = py::str(raised.value());
-        if (text.find("): incompatible ") == std::string::npos) return raised.restore(), nullptr;
+        const auto* r = static_cast<const Record*>(PyCapsule_GetPointer(self, PyCapsule_GetName(self)));
+        if (!text.starts_with(std::string(r->name) + "(): incompatible "))
+            return raised.restore(), nullptr;  // of what the function has called
         PyErr_SetObject(PyExc_TypeError, sentence(self, arguments, keywords, false).ptr());
     } catch (py::error_already_set& e) {
         e.restore();

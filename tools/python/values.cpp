@@ -20,6 +20,13 @@ std::string class_name(const py::handle& value) {
     return py::type::handle_of(value).attr("__name__").cast<std::string>();
 }
 
+bool is_integer(const py::handle& value) {
+    if (!PyIndex_Check(value.ptr())) return false;
+    const auto index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    if (!index) PyErr_Clear();
+    return static_cast<bool>(index);
+}
+
 std::optional<std::uint64_t> count_of(const char* name, std::optional<std::int64_t> count) {
     if (count && *count < 0) throw InputError(fmt::format("{}: {} is less than 0", name, *count));
     return count;

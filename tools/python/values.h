@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "tools/python/python.h"
@@ -44,10 +45,16 @@ T argument(const py::handle& value, const char* what, const char* expected) {
     }
 }
 
+/// Whether a value is an integer of Python or NumPy. All arrays of NumPy have __index__, which raises
+/// TypeError.
+bool is_integer(const py::handle& value);
+
 /// Gives `value` the keyword argument with this name. Raises TypeError when it has another type.
 template <class T>
 void take(const py::kwargs& given, const char* name, T& value) {
     try {
+        if (std::is_integral_v<T> && !std::is_same_v<T, bool> && !is_integer(given[name]))
+            throw py::cast_error();  // pybind11 would round an array of one number
         value = given[name].cast<T>();
     } catch (const py::cast_error&) {
         throw py::type_error(std::string(name) + " cannot be " + py::repr(given[name]).cast<std::string>());

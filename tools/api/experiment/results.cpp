@@ -56,6 +56,8 @@ void add_recording(const fs::path& path, const std::vector<ResultFiles::Recordin
         if (named.size() == 1 && all.size() == 1) what.name = named[0]->source;
         for (const auto* n : named)
             if (n->source == what.name) what.label = n->label;
+        if (what.one_number() && what.name.starts_with("max:"))
+            what.reduction = "max";  // a .npy file does not say which number it has
         what.synapses = is_of_synapses(what);
         out.recordings.push_back({std::move(rows), std::move(what)});
     }

@@ -1,6 +1,8 @@
 """What Forage raises."""
 from __future__ import annotations
 
+import operator
+
 TYPE_CHECKING = False  # that of `typing`, whose import takes time
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -164,11 +166,15 @@ def _is(type_text: str, value: Any) -> bool:
     if type_text == "None":
         return value is None
     if type_text == "int":
-        return hasattr(value, "__index__")
+        try:  # all arrays of NumPy have __index__
+            operator.index(value)
+        except TypeError:
+            return False
+        return True
     if type_text == "float":
         return hasattr(value, "__float__") or hasattr(value, "__index__")
     if type_text == "bool":
-        return isinstance(value, bool) or type(value).__name__ == "bool_"
+        return isinstance(value, bool) or type(value).__name__ in ("bool", "bool_")  # of NumPy since version 2, and before
     if type_text in ("str", "bytes"):
         return isinstance(value, (str, bytes) if type_text == "str" else bytes)
     if type_text == "os.PathLike":
@@ -186,7 +192,7 @@ def _is(type_text: str, value: Any) -> bool:
 
 def _in_range(type_text: str, value: Any) -> bool:
     """Whether an integer fits any type of C++ that the function may have."""
-    return "int" not in _choices(type_text) or value is None or 0 <= value < 1 << 31
+    return "int" not in _choices(type_text) or not _is("int", value) or 0 <= operator.index(value) < 1 << 31
 
 
 def _words(type_text: str) -> str:

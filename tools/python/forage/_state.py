@@ -4,9 +4,9 @@ import math
 from . import _forage
 
 
-def resumed(state):
-    """The run that was pickled."""
-    return _forage._resumed(state)  # a pickle can run code anyway, so its plugins are trusted
+def resumed(state, on_nan="warn"):
+    """The run that was pickled; older pickles do not have `on_nan`."""
+    return _forage._resumed(state, on_nan)  # a pickle can run code anyway, so its plugins are trusted
 
 
 def value(text):

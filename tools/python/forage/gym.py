@@ -529,6 +529,14 @@ class BugVectorEnv(_Kept, VectorEnv):  # type: ignore[misc]
         """The environments, each with observation, run, split() and render() as a BugEnv has them."""
         self._ended = numpy.zeros(num_envs, bool)
 
+    def __getstate__(self) -> dict[str, typing.Any]:
+        return {**super().__getstate__(), "envs": [{name: value for name, value in vars(one).items() if name != "_several"} for one in self.envs]}
+
+    def __setstate__(self, kept: dict[str, typing.Any]) -> None:
+        super().__setstate__(kept)
+        for one, attributes in zip(self.envs, kept.get("envs", ())):
+            vars(one).update(attributes)
+
     @property
     def threads(self) -> int:
         """The number of threads that share a step."""
@@ -588,11 +596,11 @@ class BugVectorEnv(_Kept, VectorEnv):  # type: ignore[misc]
         Raises InputError, before any environment steps, for an action that is not in the action space.
         """
         self.observations, rewards, terminated, truncated, reached = self._use.step(actions)
+        begun, self._ended = self._ended, terminated | truncated  # also when the function of the reward raises
         if self._reward is not None:
             for one, there in zip(self.envs, reached.tolist()):
                 one.reached_target = there
-            rewards[:] = [0.0 if begun else _number(self._reward(one)) for one, begun in zip(self.envs, self._ended.tolist())]
-        self._ended = terminated | truncated
+            rewards[:] = [0.0 if first else _number(self._reward(one)) for one, first in zip(self.envs, begun.tolist())]
         return self.observations, rewards, terminated, truncated, {"reached_target": reached, "_reached_target": numpy.ones(self.num_envs, bool)}
 
     def render(self) -> tuple[typing.Any, ...] | None:
