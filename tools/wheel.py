@@ -111,8 +111,9 @@ def licences(files, folder):
     packages = {line.split(":")[0] for line in output("dpkg", "-S", *paths).splitlines()}
     for package in sorted({*packages, *HEADERS}):
         text = pathlib.Path("/usr/share/doc", package, "copyright")
-        if text.exists():
-            shutil.copyfile(text, folder / package)
+        if not text.exists():
+            sys.exit(f"wheel: the package {package} has no file {text}")
+        shutil.copyfile(text, folder / package)
 
 
 def archives(tree):
@@ -142,13 +143,12 @@ def write(root, file):
     info = next(root.glob("*.dist-info"))
     record = info / "RECORD"
     record.unlink()
-    with zipfile.ZipFile(file, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as out:
+    with zipfile.ZipFile(file, "w") as out:
 
         def add(path, content):
             entry = zipfile.ZipInfo(str(path.relative_to(root)), stamp)
             entry.external_attr = (0o100755 if ".so" in path.name else 0o100644) << 16
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            out.writestr(entry, content)
+            out.writestr(entry, content, zipfile.ZIP_DEFLATED, compresslevel=9)
 
         lines = []
         for path in sorted(p for p in root.rglob("*") if p.is_file()):
