@@ -22,22 +22,18 @@ export async function downloadSystem(): Promise<void> {
   if (text !== undefined) save(`${name()}.iqr`, 'application/xml', text);
 }
 
+const tell = (error: Error) => actions.notify('error', error.message);
+
 /** Saves a file that this browser keeps, such as a recording, on the computer. */
-export async function downloadFile(path: string): Promise<void> {
-  try {
-    save(baseName(path), 'application/octet-stream', new Blob([(await readFile(path)) as BlobPart]));
-  } catch (error) {
-    actions.notify('error', (error as Error).message);
-  }
-}
+export const downloadFile = (path: string): Promise<void> => readFile(path).then((content) => save(baseName(path), 'application/octet-stream', new Blob([content as BlobPart])), tell);
 
 /** Puts files of the computer beside those that this browser keeps; the menu opens them. */
 export function addFiles(): void {
   const input = document.createElement('input');
   input.type = 'file';
   input.multiple = true;
-  input.onchange = async () => {
-    for (const file of input.files ?? []) actions.notify('info', `${file.name} is ${baseName(await addFile(file))} here; open it from the menu.`);
+  input.onchange = () => {
+    for (const file of input.files ?? []) addFile(file).then((path) => actions.notify('info', `${file.name} is ${baseName(path)} here; open it from the menu.`), tell);
   };
   input.click();
 }
@@ -47,9 +43,14 @@ export async function copyLink(): Promise<void> {
   const system = await systemText();
   if (system === undefined) return;
   if (worldFile.dirty) return actions.notify('error', 'Save the world first: the link holds its file.');
-  const world = model.world?.file ?? '', text = world && !world.startsWith(shipped) ? new TextDecoder().decode(await readFile(world)) : undefined;
-  const address = `${location.origin}${location.pathname}#${await fragmentOf({ name: name(), system, world, worldText: text })}`;
-  await navigator.clipboard.writeText(address);
-  const long = address.length > 30_000 ? ' It is long: some programs cut such links. A file is safer.' : '';
-  actions.notify('info', `The link is copied (${address.length} letters). Whoever opens it sees this system.${long}`);
+  try {
+    const world = model.world?.file ?? '', text = world && !world.startsWith(shipped) ? new TextDecoder().decode(await readFile(world)) : undefined;
+    const address = `${location.origin}${location.pathname}#${await fragmentOf({ name: name(), system, world, worldText: text })}`;
+    if (!navigator.clipboard) return actions.notify('info', address); // at an address without https
+    await navigator.clipboard.writeText(address);
+    const long = address.length > 30_000 ? ' It is long: some programs cut such links. A file is safer.' : '';
+    actions.notify('info', `The link is copied (${address.length} letters). Whoever opens it sees this system.${long}`);
+  } catch (error) {
+    tell(error as Error);
+  }
 }

@@ -23,7 +23,9 @@ async function through(bytes: Blob, stream: CompressionStream | DecompressionStr
 
 /** The fragment of an address, without '#'. */
 export async function fragmentOf(linked: Linked): Promise<string> {
-  const bytes = await through(new Blob([JSON.stringify(linked)]), new CompressionStream('deflate-raw'));
+  const text = new Blob([JSON.stringify(linked)]);
+  if (text.size > most) throw new Error('The system is too large for a link: send it as a file.');
+  const bytes = await through(text, new CompressionStream('deflate-raw'));
   return `system=${btoa(Array.from(bytes, (b) => String.fromCharCode(b)).join('')).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '')}`;
 }
 

@@ -5,20 +5,25 @@ import { linkedIn } from './link';
 /** What the page asks of the worker, beside messages for the session. */
 export type Wish = { open: { system: string; world: string; files: Record<string, string> } } | { hidden: boolean } | { read: string } | { write: string; bytes: ArrayBuffer };
 /** What the worker answers, beside messages of the session. */
-export type Answer = { failed: string } | { note: string } | { content: Uint8Array | string };
+export type Answer = { failed: string } | { note: string } | { content: Uint8Array | string } | { refused: string };
 
 /** Whether the session runs in this browser. */
 export const inBrowser = import.meta.env.MODE === 'web';
 
 const shipped = '/forage/systems/';
 let worker: Worker;
-let answered: (content: Uint8Array | string) => void = () => {};
+/** Who waits for answers about files, which come in the order of the wishes. */
+const waiting: { resolve(content: Uint8Array | string): void; reject(error: Error): void }[] = [];
+
+const hash = (text: string): string => [...text].reduce((h, c) => (Math.imul(h, 31) + c.charCodeAt(0)) >>> 0, 7).toString(16);
 
 /** The system and the world that the address of the page names, or that are in its link. */
 async function asked(): Promise<Wish> {
   const linked = await linkedIn(location.hash);
   if (linked) {
-    const system = `/link/${linked.name.replace(/[^\w .-]/g, '_') || 'system'}.iqr`, world = linked.worldText ? '/link/linked.world' : linked.world;
+    // Among what comes with Forage, which Save leaves as it is. Links to different systems do not meet there.
+    const folder = `${shipped}link/${hash(location.hash)}`, system = `${folder}/${linked.name.replace(/[^\w .-]/g, '_') || 'system'}.iqr`;
+    const world = linked.worldText ? `${folder}/linked.world` : linked.world;
     return { open: { system, world, files: { [system]: linked.system, ...(linked.worldText ? { [world]: linked.worldText } : {}) } } };
   }
   const given = new URLSearchParams(location.search), system = given.get('system') ?? 'dac_foraging.iqr', world = given.get('world') ?? (given.has('system') ? '' : 'basic_arena.world');
@@ -47,7 +52,8 @@ export function workerSocket(note: (text: string) => void): Socket {
   worker.onmessage = ({ data }: MessageEvent<string | ArrayBuffer | Answer>) => {
     if (typeof data === 'object' && 'failed' in data) return fail(data.failed);
     if (typeof data === 'object' && 'note' in data) return note(data.note);
-    if (typeof data === 'object' && 'content' in data) return answered(data.content);
+    if (typeof data === 'object' && 'content' in data) return waiting.shift()?.resolve(data.content);
+    if (typeof data === 'object' && 'refused' in data) return waiting.shift()?.reject(new Error(data.refused));
     if (state !== WebSocket.OPEN) {
       state = WebSocket.OPEN;
       socket.onopen?.();
@@ -61,17 +67,13 @@ export function workerSocket(note: (text: string) => void): Socket {
 }
 
 const ask = (wish: Wish): Promise<Uint8Array | string> =>
-  new Promise((resolve) => {
-    answered = resolve;
+  new Promise((resolve, reject) => {
+    waiting.push({ resolve, reject });
     worker.postMessage(wish);
   });
 
 /** The content of a file that this browser keeps. */
-export async function readFile(path: string): Promise<Uint8Array> {
-  const content = await ask({ read: path });
-  if (typeof content === 'string') throw new Error(content);
-  return content;
-}
+export const readFile = async (path: string): Promise<Uint8Array> => (await ask({ read: path })) as Uint8Array;
 
 /** Keeps a file in this browser, below the name that it has, or below one with a number when there is such a file. Returns its name. */
 export const addFile = async (file: File): Promise<string> => (await ask({ write: file.name, bytes: await file.arrayBuffer() })) as string;

@@ -21,10 +21,13 @@ const post = (answer: Answer) => postMessage(answer);
 
 /** Whether this is the tab that keeps files: two at a time would write over each other. */
 function first(): Promise<boolean> {
-  return new Promise((resolve) => void navigator.locks.request('forage', { ifAvailable: true }, (lock) => {
-    resolve(lock !== null);
-    return lock && new Promise(() => {}); // until the tab is closed
-  }));
+  if (!navigator.locks) return Promise.resolve(false); // at an address without https
+  return new Promise((resolve) =>
+    void navigator.locks.request('forage', { ifAvailable: true }, (lock) => {
+      resolve(lock !== null);
+      return lock && new Promise(() => {}); // until the tab is closed
+    })
+  );
 }
 
 /** Loads the simulator, and the files that this browser keeps of the user. */
@@ -34,7 +37,7 @@ async function load(): Promise<Engine> {
   const [engine, keeps] = await Promise.all([create({ locateFile: (name: string) => new URL(name, from).href }), first()]);
   for (const name of ['DejaVuSans.ttf', 'DejaVuSans-Bold.ttf']) engine.FS.createLazyFile('/forage/fonts', name, new URL(`../fonts/${name}`, self.location.href).href, true, false);
   engine.FS.mkdirTree(home);
-  let failed: unknown = 'another tab of this browser keeps the files of the studio';
+  let failed: unknown = navigator.locks ? 'another tab of this browser keeps the files of the studio' : 'files are kept at addresses with https only';
   if (keeps) {
     engine.FS.mount(engine.IDBFS, { autoPersist: true }, home);
     failed = await new Promise((resolve) => engine.FS.syncfs(true, resolve));
@@ -48,49 +51,60 @@ const loading = load();
 let engine: Engine | null = null;
 let hidden = false;
 let timer: ReturnType<typeof setTimeout> | undefined;
+let posted = false;
 const soon = new MessageChannel();
-soon.port1.onmessage = work;
+soon.port1.onmessage = () => {
+  posted = false;
+  work();
+};
 
 /** Runs the cycles that are due, and comes again when more are: after the messages that wait, or later. A page that is hidden costs nothing. */
 function work(): void {
   clearTimeout(timer);
   if (!engine || hidden) return;
   const seconds = engine.ccall('forage_work', 'number', [], []) as number;
-  if (seconds <= 0) soon.port2.postMessage(null);
-  else if (seconds < 3600) timer = setTimeout(work, seconds * 1000);
+  if (seconds <= 0) {
+    if (!posted) soon.port2.postMessage(null);
+    posted = true;
+  } else if (seconds < 3600) timer = setTimeout(work, seconds * 1000);
 }
 
 async function open({ system, world, files }: Extract<Wish, { open: unknown }>['open']): Promise<void> {
   const loaded = await loading;
-  loaded.FS.mkdirTree('/link');
-  for (const [path, text] of Object.entries(files)) loaded.FS.writeFile(path, text);
+  for (const [path, text] of Object.entries(files)) {
+    loaded.FS.mkdirTree(path.replace(/\/[^/]*$/, ''));
+    loaded.FS.writeFile(path, text);
+  }
   const wrong = loaded.ccall('forage_open', 'string', ['string', 'string'], [system, world]) as string;
   if (wrong) throw new Error(wrong);
   engine = loaded;
   work();
 }
 
-function read(path: string): Uint8Array | string {
-  try {
-    return engine!.FS.readFile(path);
-  } catch {
-    return `there is no file '${path}'`;
-  }
-}
+const read = (path: string): Uint8Array => engine!.FS.readFile(path);
 
 function write(name: string, bytes: ArrayBuffer): string {
-  const [, stem = '', ending = ''] = /^(.*?)(\.[^.]*)?$/.exec(name.replace(/[/\0]/g, '_'))!;
+  const [, stem = '', ending = ''] = /^(.*?)(\.[^.]*)?$/s.exec(name.replace(/[/\0]/g, '_'))!;
   let path = `${home}/${stem}${ending}`;
   for (let n = 2; engine!.FS.analyzePath(path).exists; ++n) path = `${home}/${stem} ${n}${ending}`;
   engine!.FS.writeFile(path, new Uint8Array(bytes));
   return path;
 }
 
+/** Answers what does something with a file, also when it fails. */
+function answer(act: () => Uint8Array | string): void {
+  try {
+    post({ content: act() });
+  } catch (error) {
+    post({ refused: `The file cannot be read or kept: ${String(error)}.` });
+  }
+}
+
 self.onmessage = ({ data }: MessageEvent<Wish | string>) => {
   if (typeof data === 'string') engine?.ccall('forage_receive', null, ['string'], [data]);
   else if ('open' in data) return void open(data.open).catch((error: Error) => post({ failed: error.message }));
   else if ('hidden' in data) hidden = data.hidden;
-  else if ('read' in data) post({ content: read(data.read) });
-  else post({ content: write(data.write, data.bytes) });
+  else if ('read' in data) answer(() => read(data.read));
+  else answer(() => write(data.write, data.bytes));
   work();
 };

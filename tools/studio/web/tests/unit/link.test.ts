@@ -18,7 +18,11 @@ describe('a link', () => {
     for (const damaged of [fragment.slice(0, 60), 'system=AAAA', await fragmentOf({ ...linked, system: 5 as unknown as string }), await fragmentOf('x' as never)])
       await expect(linkedIn(damaged)).rejects.toThrow('The system in this link cannot be read');
   });
-  it('that would fill the memory is refused', async () => {
-    await expect(linkedIn(await fragmentOf({ ...linked, system: ' '.repeat(3 << 20), worldText: ' '.repeat(3 << 20) }))).rejects.toThrow('too much');
+  it('that would fill the memory is refused, and not made', async () => {
+    const spaces = ' '.repeat(5 << 20);
+    await expect(fragmentOf({ ...linked, system: spaces })).rejects.toThrow('too large');
+    const packed = new Uint8Array(await new Response(new Blob([spaces]).stream().pipeThrough(new CompressionStream('deflate-raw'))).arrayBuffer());
+    const fragment = `system=${btoa(String.fromCharCode(...packed)).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '')}`;
+    await expect(linkedIn(fragment)).rejects.toThrow('too much');
   });
 });
