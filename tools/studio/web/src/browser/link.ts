@@ -1,7 +1,7 @@
 // An address that holds a system: its text is compressed in the fragment, which no server sees.
 
 /** A system and its world, which comes with Forage, or whose text is there. */
-export interface Linked {
+interface Linked {
   name: string;
   system: string;
   world: string;

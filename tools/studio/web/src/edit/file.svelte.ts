@@ -173,7 +173,7 @@ class FileDialog {
     if (!task) return; // it was closed meanwhile
     try {
       await task.act(file, overwrite);
-      this.close();
+      if (this.task === task) this.close(); // another dialog may have been opened meanwhile
     } catch (e) {
       this.error = (e as Error).message;
       if (e instanceof CommandError && e.reason === 'file_exists') this.taken = file;
