@@ -1,4 +1,5 @@
-// What a browser has not: processes (ffmpeg, a compiler), of which the caller gets an error, and a number of cores.
+// What a browser has not: processes (ffmpeg, a compiler), of which the caller gets an error, and a number of
+// cores.
 #include <cerrno>
 
 #include <sched.h>

@@ -1,4 +1,5 @@
-// The studio in a browser's worker: a session without a server. web/src/browser/worker.ts calls these functions, and one page talks to it.
+// The studio in a browser's worker: a session without a server. web/src/browser/worker.ts calls these
+// functions, and one page talks to it.
 #include <array>
 #include <chrono>
 #include <cstdlib>
@@ -12,6 +13,8 @@
 #include "tools/studio/server/http_server.h"
 #include "tools/studio/server/session.h"
 
+// JavaScript.
+// clang-format off
 EM_JS(void, post_text, (const char* text, int size), { postMessage(UTF8ToString(text, size)); });
 EM_JS(void, post_bytes, (const char* bytes, int size), {
     const frame = HEAPU8.slice(bytes, bytes + size).buffer;
@@ -25,6 +28,7 @@ EM_JS(void, keep_picture, (const char* bytes, int size, char* address, int most)
     if (pictures.push(URL.createObjectURL(picture)) > 2) URL.revokeObjectURL(pictures.shift());
     stringToUTF8(pictures.at(-1), address, most);
 });
+// clang-format on
 
 namespace {
 
@@ -52,7 +56,8 @@ double now() {
 
 extern "C" {
 
-/// Opens a system with a world, which may be empty. Returns what is wrong, until the next call; empty when the session has begun.
+/// Opens a system with a world, which may be empty. Returns what is wrong, until the next call; empty when
+/// the session has begun.
 EMSCRIPTEN_KEEPALIVE const char* forage_open(const char* system, const char* world) {
     static std::string wrong;
     setenv("FONTCONFIG_FILE", "/forage/fonts/fonts.conf", 1);
