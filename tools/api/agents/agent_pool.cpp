@@ -35,7 +35,7 @@ AgentPool::AgentPool(const std::shared_ptr<const AgentTask>& task, std::size_t r
     for (std::size_t i = 1; i < runs; ++i) runs_.emplace_back(runs_.front(), task->options().input.seed + i);
     const auto usable = static_cast<std::size_t>(threads > 0 ? threads : cores());
     threads_ = std::make_unique<engine::ThreadPool>(static_cast<int>(std::min(usable, runs)));
-    if (threads == 0) choice_.emplace();
+    if (threads == 0) choice_ = Choice{};
 }
 
 AgentPool::~AgentPool() = default;

@@ -24,7 +24,7 @@ EM_JS(void, post_bytes, (const char* bytes, int size), {
 EM_JS(void, keep_picture, (const char* bytes, int size, char* address, int most), {
     const picture = new Blob([HEAPU8.slice(bytes, bytes + size)], {type: 'image/png'});
     // The page may still load the last one.
-    const pictures = Module.pictures ??= [];
+    const pictures = Module.pictures || (Module.pictures = []);
     if (pictures.push(URL.createObjectURL(picture)) > 2) URL.revokeObjectURL(pictures.shift());
     stringToUTF8(pictures.at(-1), address, most);
 });
