@@ -83,7 +83,10 @@ class Archive {
   private:
     static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
 
-    /// Sizes of a machine of 32 bits are written as those of others, so that digests are equal.
+    /// Sizes of WebAssembly, which has 32 bits, are written as those of others, so that digests are equal.
+    /// They are `long` there; where they are `int`, every int would be written as if it were a size.
+    static_assert(sizeof(std::size_t) == 8 || !std::is_same_v<std::size_t, std::uint32_t>,
+                  "sizes have a type of their own");
     template <class T>
     static constexpr bool narrow = sizeof(T) < 8 &&
                                    (std::is_same_v<T, std::size_t> || std::is_same_v<T, std::ptrdiff_t>);
