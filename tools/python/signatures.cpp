@@ -18,11 +18,16 @@ namespace {
 
 using Record = py::detail::function_record;
 
+/// What pybind11 keeps of a function, in a capsule.
+const Record* record_in(PyObject* capsule) {
+    return static_cast<const Record*>(PyCapsule_GetPointer(capsule, PyCapsule_GetName(capsule)));
+}
+
 /// What pybind11 knows of a function of C; null when it is not its own.
 const Record* record_of(PyObject* function) {
     PyObject* self = PyCFunction_GET_SELF(function);
     if (!self || !PyCapsule_CheckExact(self)) return nullptr;
-    return static_cast<const Record*>(PyCapsule_GetPointer(self, PyCapsule_GetName(self)));
+    return record_in(self);
 }
 
 /// "(self, source, every=1)", as Python reads it.
@@ -54,7 +59,7 @@ PyCFunctionWithKeywords dispatcher = nullptr;  ///< that of pybind11, which all 
 /// What is wrong with the arguments, in one sentence; with `fractions`, empty when none is a fraction where
 /// an integer belongs.
 py::object sentence(PyObject* self, PyObject* arguments, PyObject* keywords, bool fractions) {
-    const auto* r = static_cast<const Record*>(PyCapsule_GetPointer(self, PyCapsule_GetName(self)));
+    const Record* r = record_in(self);
     const py::object explain = py::module_::import("forage._errors").attr("wrong_arguments");
     return explain(r->name, r->signature, py::reinterpret_borrow<py::object>(arguments),
                    keywords ? py::reinterpret_borrow<py::object>(keywords) : py::dict(), r->is_constructor,
@@ -74,7 +79,7 @@ bool refused(PyObject* self, PyObject* arguments, PyObject* keywords) {
     PyObject *name = nullptr, *value = nullptr;
     for (Py_ssize_t at = 0; keywords && PyDict_Next(keywords, &at, &name, &value);)
         maybe = maybe || may_be_fraction(value);
-    const auto* r = static_cast<const Record*>(PyCapsule_GetPointer(self, PyCapsule_GetName(self)));
+    const Record* r = record_in(self);
     if (!maybe || !std::strstr(r->signature, "int")) return false;
     const py::object what = sentence(self, arguments, keywords, true);
     if (py::len(what) == 0) return false;
@@ -90,7 +95,7 @@ PyObject* call(PyObject* self, PyObject* arguments, PyObject* keywords) {
         if (out || !PyErr_ExceptionMatches(PyExc_TypeError)) return out;
         py::error_already_set raised;
         const std::string text = py::str(raised.value());
-        const auto* r = static_cast<const Record*>(PyCapsule_GetPointer(self, PyCapsule_GetName(self)));
+        const Record* r = record_in(self);
         if (!text.starts_with(std::string(r->name) + "(): incompatible "))
             return raised.restore(), nullptr;  // of what the function has called
         PyErr_SetObject(PyExc_TypeError, sentence(self, arguments, keywords, false).ptr());
