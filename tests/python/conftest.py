@@ -10,6 +10,7 @@ import forage
 PROJECT = pathlib.Path(__file__).parents[2]
 SYSTEMS = PROJECT / "systems"
 SMALL = SYSTEMS / "cookbook/oscillator.iqr"  # without a world
+REACTIVE = SYSTEMS / "reactive_foraging.iqr"
 WORLD = SYSTEMS / "worlds/basic_arena.world"
 
 # The same examples in each run, so that a failure is that of a change. The health checks are about how fast examples are made:
@@ -44,3 +45,10 @@ def command(tmp_path):
         return done.stdout
 
     return call
+
+
+@pytest.fixture
+def run():
+    """A run of the reactive system in its arena."""
+    with forage.open(REACTIVE, world=WORLD) as out:
+        yield out

@@ -10,18 +10,11 @@ import numpy
 import pytest
 
 import forage
-from conftest import SYSTEMS, WORLD
+from conftest import REACTIVE, SYSTEMS, WORLD
 from forage.gym import BugEnv, BugParallelEnv, BugVectorEnv
 
-REACTIVE = SYSTEMS / "reactive_foraging.iqr"
 TWO = SYSTEMS / "worlds/two_bugs.world"
 LIGHT = "Bug/Light"
-
-
-@pytest.fixture
-def run():
-    with forage.open(REACTIVE, world=WORLD) as out:
-        yield out
 
 
 def public_functions():

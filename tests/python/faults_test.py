@@ -6,17 +6,10 @@ import numpy
 import pytest
 
 import forage
-from conftest import SYSTEMS, WORLD
+from conftest import REACTIVE, WORLD
 from forage.gym import BugEnv
 
-REACTIVE = SYSTEMS / "reactive_foraging.iqr"
 LIGHT = "Bug/Light.vmMin"
-
-
-@pytest.fixture
-def run():
-    with forage.open(REACTIVE, world=WORLD) as out:
-        yield out
 
 
 @pytest.mark.parametrize("value", ["a", "1", None, object(), 1j, [[1], [1, 2]], numpy.nan])
