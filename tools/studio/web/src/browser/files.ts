@@ -16,7 +16,7 @@ async function systemText(): Promise<string | undefined> {
   return (await command('document'))?.text;
 }
 
-/** Saves the system as it is now on the computer. */
+/** Downloads the system, with changes that are not saved. */
 export async function downloadSystem(): Promise<void> {
   const text = await systemText();
   if (text !== undefined) save(`${name()}.iqr`, 'application/xml', text);
@@ -24,7 +24,7 @@ export async function downloadSystem(): Promise<void> {
 
 const tell = (error: Error) => actions.notify('error', error.message);
 
-/** Saves a file that this browser keeps, such as a recording, on the computer. */
+/** Downloads a file that this browser keeps, such as a recording. */
 export const downloadFile = (path: string): Promise<void> => readFile(path).then((content) => save(baseName(path), 'application/octet-stream', new Blob([content as BlobPart])), tell);
 
 /** Puts files of the computer beside those that this browser keeps; the menu opens them. */

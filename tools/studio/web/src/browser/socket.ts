@@ -60,7 +60,7 @@ export function workerSocket(note: (text: string) => void): Socket {
     }
     socket.onmessage?.({ data });
   };
-  worker.onerror = (event) => fail(`The simulator cannot be loaded: ${event.message}`);
+  worker.onerror = (event) => fail(`The simulator has failed: ${event.message}`);
   document.addEventListener('visibilitychange', () => worker.postMessage({ hidden: document.hidden }));
   asked().then((wish) => worker.postMessage(wish), (error: Error) => fail(error.message));
   return socket;

@@ -1,12 +1,11 @@
 // The studio without a server in Chromium, from a folder of static files: node without_server.mjs SITE
-// What takes long on a slow machine is measured, and printed: node without_server.mjs SITE measure
 import assert from 'node:assert/strict';
 import { createReadStream, existsSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
 import { eventually, launch } from './support.mjs';
 
-const [site, measure] = process.argv.slice(2), patience = 60000;
+const site = process.argv[2], patience = 60000;
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml', '.png': 'image/png' };
 const server = createServer(({ url }, response) => {
   const path = join(site, normalize(new URL(url, 'http://x').pathname).replace(/\/$/, '/index.html'));
@@ -42,7 +41,6 @@ step('the robot of the tutorial runs');
 let page = await open('');
 await page.getByRole('button', { name: 'Run', exact: true }).click();
 await eventually('cycles', async () => (await cycle(page)) > 20);
-if (measure) step('(runs)');
 if (process.env.FORAGE_PICTURES) await page.screenshot({ path: join(process.env.FORAGE_PICTURES, 'without-server.png') });
 
 step('a system that is changed is saved');
