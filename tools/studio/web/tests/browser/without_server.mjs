@@ -67,7 +67,7 @@ await linked.close();
 
 step('an exercise of the tutorial sets itself up');
 page = await open('?exercise=2-reactive-layer:2');
-await page.getByText('reflex.iqr').first().waitFor();
+await eventually('its system', async () => (await page.locator('button.name').textContent()).includes('reflex without'));
 await eventually('the panels of the exercise', async () => (await page.getByText('Motor In').count()) > 0);
 await page.close();
 
