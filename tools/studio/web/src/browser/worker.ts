@@ -23,10 +23,11 @@ const post = (answer: Answer) => postMessage(answer);
 function first(): Promise<boolean> {
   if (!navigator.locks) return Promise.resolve(false); // at an address without https
   return new Promise((resolve) =>
-    void navigator.locks.request('forage', { ifAvailable: true }, (lock) => {
-      resolve(lock !== null);
-      return lock && new Promise(() => {}); // until the tab is closed
-    })
+    // A tab that has just been closed, or loaded anew, still has it for a moment.
+    navigator.locks.request('forage', { signal: AbortSignal.timeout(2000) }, () => {
+      resolve(true);
+      return new Promise(() => {}); // until the tab is closed
+    }).catch(() => resolve(false))
   );
 }
 

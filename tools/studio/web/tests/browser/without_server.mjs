@@ -1,11 +1,12 @@
-// The studio without a server in Chromium, from a folder of static files: node without_server.mjs SITE
+// The studio without a server, from a folder of static files: node without_server.mjs SITE [firefox]; without a name, in Chromium.
 import assert from 'node:assert/strict';
 import { createReadStream, existsSync, statSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { extname, join, normalize } from 'node:path';
+import { firefox } from 'playwright-core';
 import { eventually, launch } from './support.mjs';
 
-const site = process.argv[2], patience = 60000;
+const [, , site, name] = process.argv, patience = 60000;
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml', '.png': 'image/png' };
 const server = createServer(({ url }, response) => {
   const path = join(site, normalize(new URL(url, 'http://x').pathname).replace(/\/$/, '/index.html'));
@@ -16,8 +17,13 @@ const server = createServer(({ url }, response) => {
 await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
 const home = `http://127.0.0.1:${server.address().port}/studio/`;
 
-const browser = await launch(), context = await browser.newContext({ viewport: { width: 1400, height: 900 }, permissions: ['clipboard-read', 'clipboard-write'] });
+const browser = name ? await firefox.launch({ channel: 'moz-firefox', executablePath: '/usr/bin/firefox-esr' }) : await launch();
+const context = await browser.newContext({ viewport: { width: 1400, height: 900 } });
 context.setDefaultTimeout(patience);
+// Browsers ask the user before a page may read the clipboard.
+await context.addInitScript(() => {
+  if (navigator.clipboard) navigator.clipboard.writeText = async (text) => void (window.copied = text);
+});
 const faults = [], begun = performance.now();
 context.on('page', (page) => {
   page.on('pageerror', (e) => faults.push(e.message));
@@ -55,7 +61,7 @@ await page.getByText('Saved as mine.iqr.').waitFor();
 step('a link opens the same system in another tab');
 await menu(page, 'Copy a link');
 await page.getByText(/^The link is copied/).waitFor();
-const link = await page.evaluate(() => navigator.clipboard.readText());
+const link = await page.evaluate(() => window.copied);
 await page.close();
 const linked = await open(link.slice(home.length));
 await eventually('what was changed', async () => (await linked.getByLabel('Author', { exact: true }).inputValue()) === 'A teacher');
