@@ -1,4 +1,5 @@
-// The tests of the page in Chromium against the real program, topic by topic: node run.mjs FORAGE SOURCES [TOPIC...]
+// The tests of the page in Chromium against the real program, topic by topic: node run.mjs FORAGE SOURCES [TOPIC...].
+// Those that read no files also run against the site of tools/web: its folder takes the place of the program.
 // With FORAGE_PICTURES=FOLDER, pictures of what they see are left there.
 import { readdirSync } from 'node:fs';
 import { resolve } from 'node:path';

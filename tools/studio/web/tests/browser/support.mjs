@@ -1,9 +1,11 @@
 // A studio with pages in Chromium, for tests and pictures. Exit code 77: skipped, as there is no browser.
 import { spawn } from 'node:child_process';
-import { cpSync, existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { cpSync, createReadStream, existsSync, mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
+import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
-import { join } from 'node:path';
+import { extname, join, normalize } from 'node:path';
+import { deflateRawSync } from 'node:zlib';
 import assert from 'node:assert/strict';
 
 // What waits is patient: tests run on machines that do much else.
@@ -21,8 +23,32 @@ export async function launch() {
   return chromium.launch({ executablePath, args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-gpu-compositing', '--disable-background-networking', '--disable-dev-shm-usage'] });
 }
 
+const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml', '.png': 'image/png' };
+/** Serves the files of a site (tools/web), until the test ends. Returns the address of its studio. */
+export async function serve(site) {
+  const server = createServer(({ url }, response) => {
+    const path = join(site, normalize(new URL(url, 'http://x').pathname).replace(/\/$/, '/index.html'));
+    if (!existsSync(path) || statSync(path).isDirectory()) return response.writeHead(404).end();
+    response.writeHead(200, { 'Content-Type': types[extname(path)] ?? 'application/octet-stream' });
+    createReadStream(path).pipe(response);
+  });
+  await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
+  server.unref();
+  return `http://127.0.0.1:${server.address().port}/studio/`;
+}
+
+const usual = ['systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world'];
+
+/** The studio without a server, called as `forage studio` would be: with what comes with Forage, or with a system in a link. */
+async function startInBrowser(site, folder, [system, , world = ''] = usual) {
+  const address = await serve(site), name = (path) => /^systems\/(?:worlds\/)?(.*)/.exec(path)?.[1] ?? '';
+  if (name(system)) return `${address}?system=${name(system)}&world=${name(world)}`;
+  const linked = { name: system.replace('.iqr', ''), system: readFileSync(join(folder, system), 'utf8'), world: '' };
+  return `${address}#system=${deflateRawSync(JSON.stringify(linked)).toString('base64url')}`;
+}
+
 /** Starts `forage studio` in `folder`, which also has its state. The address is a promise. */
-export function startStudio(forage, folder, args = ['systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']) {
+export function startStudio(forage, folder, args = usual) {
   const child = spawn(forage, ['studio', ...args], { cwd: folder, env: { ...process.env, XDG_STATE_HOME: join(folder, 'state') } });
   const address = new Promise((resolve, reject) => {
     let text = '';
@@ -89,7 +115,7 @@ export async function answeredTo(page, command, before) {
 }
 /** How many frames of numbers have arrived; in the page it is `frames_`. */
 export const frames = (page) => page.evaluate(() => window.frames_);
-// Each page counts what goes over its socket.
+// Each page counts what goes over its socket, or to the worker in its place.
 function watchSocket() {
   window.sent = [];
   window.frames_ = 0;
@@ -102,6 +128,20 @@ function watchSocket() {
     send(data) {
       window.sent.push(JSON.parse(data).command);
       super.send(data);
+    }
+  };
+  window.Worker = class extends Worker {
+    constructor(...given) {
+      super(...given);
+      window.socket = this;
+      this.addEventListener('message', ({ data }) => (window.frames_ += data instanceof ArrayBuffer));
+    }
+    postMessage(data) {
+      if (typeof data === 'string') window.sent.push(JSON.parse(data).command);
+      super.postMessage(data);
+    }
+    send(data) {
+      this.postMessage(data);
     }
   };
 }
@@ -142,14 +182,16 @@ export async function inBrowser(browser, forage, sources, test) {
     page.on('pageerror', (e) => faults.push(e.message));
     page.on('console', (m) => m.type() === 'error' && faults.push(m.text()));
   });
+  const site = statSync(forage).isDirectory();
   const start = (args) => {
+    if (site) return { address: startInBrowser(forage, folder, args) };
     studios.push(startStudio(forage, folder, args));
     return studios[studios.length - 1];
   };
   /** A page that shows the address, or the last studio of this origin; `size` is that of its window. */
   const open = async (address, size) => {
-    const { origin, search } = new URL(address);
-    if (search) addresses.set(origin, address);
+    const { origin, search, hash } = new URL(address);
+    if (search || hash) addresses.set(origin, address);
     const page = await context.newPage();
     lookOften(page.locator('body'));
     if (size) await page.setViewportSize(size);
@@ -157,7 +199,7 @@ export async function inBrowser(browser, forage, sources, test) {
     return page;
   };
   try {
-    await test({ forage, folder, context, faults, start, open });
+    await test({ forage, site, folder, context, faults, start, open });
   } catch (error) {
     for (const [i, page] of context.pages().entries()) await picture(page, `failed-${i}`);
     throw error;

@@ -5,7 +5,7 @@ import { answered, eventually, find, sent, until } from './support.mjs';
 
 const large = { width: 1600, height: 1000 }, small = { width: 420, height: 800 };
 
-export default async function({ start, open, faults, step }) {
+export default async function({ site, start, open, faults, step }) {
   const address = await start().address;
   /** The places of the stacks of panels, with the tabs of each. */
   const stacks = (page) =>
@@ -87,7 +87,7 @@ export default async function({ start, open, faults, step }) {
   await page.getByRole('button', { name: /^DAC foraging/ }).press('Enter');
   await focus('New…');
   await page.keyboard.press('End');
-  await focus('Quit…');
+  await focus(site ? 'About Forage' : 'Quit…');
   await page.keyboard.press('Home');
   await focus('New…');
   await page.keyboard.press('Escape');

@@ -1,21 +1,11 @@
 // The studio without a server, from a folder of static files: node without_server.mjs SITE [firefox]; without a name, in Chromium.
 import assert from 'node:assert/strict';
-import { createReadStream, existsSync, statSync } from 'node:fs';
-import { createServer } from 'node:http';
-import { extname, join, normalize } from 'node:path';
+import { join } from 'node:path';
 import { firefox } from 'playwright-core';
-import { eventually, launch } from './support.mjs';
+import { eventually, launch, serve } from './support.mjs';
 
 const [, , site, name] = process.argv, patience = 60000;
-const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml', '.png': 'image/png' };
-const server = createServer(({ url }, response) => {
-  const path = join(site, normalize(new URL(url, 'http://x').pathname).replace(/\/$/, '/index.html'));
-  if (!existsSync(path) || statSync(path).isDirectory()) return response.writeHead(404).end();
-  response.writeHead(200, { 'Content-Type': types[extname(path)] ?? 'application/octet-stream' });
-  createReadStream(path).pipe(response);
-});
-await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
-const home = `http://127.0.0.1:${server.address().port}/studio/`;
+const home = await serve(site);
 
 const browser = name ? await firefox.launch({ channel: 'moz-firefox', executablePath: '/usr/bin/firefox-esr' }) : await launch();
 const context = await browser.newContext({ viewport: { width: 1400, height: 900 } });
@@ -79,5 +69,4 @@ await page.close();
 
 assert.deepEqual(faults, []);
 await browser.close();
-server.close();
 step('all fine');
