@@ -23,7 +23,7 @@ const post = (answer: Answer) => postMessage(answer);
 function first(): Promise<boolean> {
   if (!navigator.locks) return Promise.resolve(false); // at an address without https
   return new Promise((resolve) =>
-    // A tab that has just been closed, or loaded anew, still has it for a moment.
+    // A tab that has just been closed or reloaded still has it for a moment.
     navigator.locks.request('forage', { signal: AbortSignal.timeout(2000) }, () => {
       resolve(true);
       return new Promise(() => {}); // until the tab is closed
