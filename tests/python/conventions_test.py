@@ -17,30 +17,24 @@ TWO = SYSTEMS / "worlds/two_bugs.world"
 LIGHT = "Bug/Light"
 
 
-def public_functions():
-    for name in forage.__all__:
-        thing = getattr(forage, name)
-        if not isinstance(thing, type):
-            yield name, thing
+def public_things(scope, path=""):
+    """All that can be called by a name without _: functions, classes, their methods and the classes in them."""
+    for name in getattr(scope, "__all__", None) or dir(scope):
+        found = inspect.getattr_static(scope, name, None) if isinstance(scope, type) else getattr(scope, name)
+        inherited = hasattr(BaseException, name) or getattr(numpy.ndarray, name, None) is found
+        if name.startswith("_") or inherited or type(found).__module__ == "numpy" or not callable(getattr(scope, name)):
             continue
-        for member in dir(thing):
-            found = inspect.getattr_static(thing, member)
-            if (
-                callable(getattr(thing, member))
-                and not hasattr(BaseException, member)
-                and not member.startswith("_")
-                and not isinstance(found, type)
-                and type(found).__module__ != "numpy"
-            ):
-                yield f"{name}.{member}", getattr(thing, member)
+        yield path + name, getattr(scope, name)
+        if isinstance(found, type):
+            yield from public_things(found, f"{path}{name}.")
 
 
-@pytest.mark.parametrize("name, function", public_functions(), ids=lambda x: x if isinstance(x, str) else "")
-def test_every_function_has_a_signature(name, function):
-    if name.startswith("Table.") and not inspect.isfunction(function):
-        pytest.skip("of NumPy")
-    text = str(inspect.signature(function))
-    assert "..." not in text and "arg0" not in text
+@pytest.mark.parametrize(
+    "name, thing", [*public_things(forage), *public_things(forage.gym, "gym.")], ids=lambda x: x if isinstance(x, str) else ""
+)
+def test_everything_public_has_a_signature(name, thing):
+    for parameter in inspect.signature(thing).parameters.values():
+        assert parameter.default is not ... and not parameter.name.startswith("arg0")
 
 
 def test_signatures_have_names_and_defaults():
@@ -49,7 +43,8 @@ def test_signatures_have_names_and_defaults():
     )
     assert list(inspect.signature(forage.open).parameters)[:3] == ["system", "world", "seed"]
     assert str(inspect.signature(forage.System)) == "(name='system', *, cycles_per_second=25.0, plugins=[])"
-    assert forage.open.__doc__.startswith("Opens a system")
+    assert forage.open.__doc__.startswith("Opens a system") and forage.Run.__doc__.startswith("A system in its world")
+    assert str(inspect.signature(forage.Run)) == str(inspect.signature(forage.System.Group)) == "()"
 
 
 @pytest.mark.parametrize(

@@ -3,8 +3,10 @@
 // once.
 #include <cstdlib>
 #include <cstring>
+#include <new>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -121,13 +123,24 @@ void complete(const py::handle& function) {
     method->ml_doc = strdup(text.c_str());
 }
 
+/// inspect.signature() of a class without a constructor finds no arguments, where it fails without this text.
+void complete_class(const py::handle& type) {
+    if (PyInstanceMethod_Check(py::object(type.attr("__dict__")["__init__"]).ptr())) return;
+    auto* c = reinterpret_cast<PyTypeObject*>(type.ptr());
+    const auto text = fmt::format("{}()\n--\n\n", type.attr("__name__").cast<std::string>());
+    auto* copy = static_cast<char*>(PyObject_Malloc(text.size() + 1));  // Python frees it
+    if (!copy) throw std::bad_alloc();
+    std::memcpy(copy, text.c_str(), text.size() + 1);
+    PyObject_Free(const_cast<char*>(std::exchange(c->tp_doc, copy)));
+}
+
 void complete_members(const py::handle& scope) {
     for (const auto& [name, member] : py::dict(scope.attr("__dict__"))) {
         if (PyInstanceMethod_Check(member.ptr())) {
             complete(PyInstanceMethod_GET_FUNCTION(member.ptr()));
         } else if (PyType_Check(member.ptr())) {
             if (py::object(member.attr("__module__")).equal(py::str("forage._forage")))
-                complete_members(member);
+                complete_members(member), complete_class(member);
         } else if (py::isinstance(member, reinterpret_cast<PyObject*>(&PyProperty_Type))) {
             complete(member.attr("fget")), complete(member.attr("fset"));
         } else if (py::hasattr(member, "__func__")) {

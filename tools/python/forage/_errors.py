@@ -80,9 +80,15 @@ class InputError(ValueError):
 class InputWarning(UserWarning):
     """Something in a file or an argument is legal, and probably not what its author wants."""
 
+    def __init__(self, text: str = "") -> None:
+        super().__init__(text)
+
 
 class RunError(RuntimeError):
     """A cycle of a run failed, a trial took too long, or a run was used in a way that is impossible."""
+
+    def __init__(self, text: str = "") -> None:
+        super().__init__(text)
 
 
 _WORDS = {"int": "an integer", "float": "a number", "str": "a text", "bool": "True or False", "bytes": "bytes", "os.PathLike": "a path", "None": "None"}

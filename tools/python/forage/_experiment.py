@@ -37,6 +37,9 @@ class Table(numpy.ndarray[typing.Any, numpy.dtype[numpy.void]]):
 
     _directory: str | None = None
 
+    def __new__(cls, rows: numpy.typing.ArrayLike) -> Table:
+        return numpy.asanyarray(rows).view(cls)
+
     def __array_finalize__(self, origin: typing.Any) -> None:
         self._directory = getattr(origin, "_directory", None)
 
