@@ -420,6 +420,17 @@ def test_agents_of_one_run_are_rewarded_and_end_on_their_own():
     assert rewards == {"Scout": 5.0, "Follower": 8.0}
 
 
+def test_agents_end_also_when_the_function_of_the_reward_raises():
+    def reward(env, robot):
+        raise KeyError(robot)
+
+    env = BugParallelEnv(TWO, sensors=["gps"], reward=reward, max_steps=1)
+    env.reset(seed=1)
+    with pytest.raises(KeyError):
+        env.step(dict.fromkeys(env.agents, 1))
+    assert env.agents == []
+
+
 def test_worlds_side_by_side_have_the_numbers_of_single_ones_on_any_number_of_threads():
     def play(threads):
         env = BugVectorEnv(5, WORLD, sensors=["target", "gps"], max_steps=25, threads=threads)

@@ -447,9 +447,11 @@ class BugParallelEnv(_Rendered, ParallelEnv):  # type: ignore[misc]
         parts = {name: run.outcome(self._numbers[name]) for name in self.agents}
         observations, rewards, terminations, truncations = ({n: p[k] for n, p in parts.items()} for k in range(4))
         infos = {n: {"reached_target": p[4]} for n, p in parts.items()}
-        if self._reward is not None:
-            rewards = {n: _number(self._reward(self, n)) for n in parts}
-        self.agents = [n for n, p in parts.items() if not (p[2] or p[3])]
+        try:
+            if self._reward is not None:
+                rewards = {n: _number(self._reward(self, n)) for n in parts}
+        finally:  # the robots have moved, also when the function of the reward raises
+            self.agents = [n for n, p in parts.items() if not (p[2] or p[3])]
         if self.render_mode == "human":
             self.render()
         return observations, rewards, terminations, truncations, infos
