@@ -113,6 +113,11 @@ def processor_time(function, times):
     return (time.process_time() - start) / times
 
 
+def long_run(observe):
+    with forage.open(AGENT["system"], world=WORLD, observe=observe) as run:
+        return processor_time(lambda: run.run(cycles=9000), 1)
+
+
 def resets():
     env, seed = BugEnv(WORLD, **AGENT), itertools.count()
     restart = lambda: env.reset(seed=next(seed))
@@ -156,6 +161,8 @@ def main():
         act = run["Bug/Light"].act
         run.run(cycles=100)
         result("python/read of a state", "copies", float(act is not run["Bug/Light"].act or act.flags.owndata), "")
+    everything, nothing = smallest(lambda: long_run(None), lambda: long_run([]))
+    result("python/reactive foraging", "run.run() / with observe=[]", everything / nothing, "")
     resets()
     many_worlds()
 

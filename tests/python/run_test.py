@@ -4,12 +4,13 @@ import gc
 import os
 import signal
 import threading
+import warnings
 import weakref
 
 import pytest
 
 import forage
-from conftest import SMALL, SYSTEMS, WORLD, open_dac
+from conftest import REACTIVE, SMALL, SYSTEMS, WORLD, open_dac
 
 
 def state_in(printed):
@@ -331,3 +332,21 @@ def test_import_is_fast_and_light():
     ).stdout.split()
     assert not {"numpy", "pandas", "xarray", "neo", "scipy"} & set(loaded)
     assert len(loaded) < 12, loaded
+
+
+def test_a_long_run_says_that_groups_are_computed_for_nothing(run):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        run.run(cycles=9999)
+        for few in ({"observe": ["Bug/Light"]}, {"overwrite": ["Bug/Motor"]}):
+            forage.open(REACTIVE, world=WORLD, **few).run(cycles=10_000)
+        forage.open(SMALL).run(cycles=10_000)  # nothing of it would be left out
+        with pytest.raises(forage.InputWarning):
+            run.run(cycles=10_000)
+        assert run.cycle == 9999
+        for group in run.groups:
+            run[group].act
+        run.run(cycles=10_000)  # everything is looked at
+    other = run.restarted(1)
+    with pytest.warns(forage.InputWarning, match=r"7 of 17 groups are computed only because they may be read later\n.*observe="):
+        other.run(seconds=10_000 * run.seconds_per_cycle)

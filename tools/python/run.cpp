@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <chrono>
 
+#include <fmt/format.h>
+
+#include "core/run/prunable_groups.h"
 #include "core/run/stop_condition.h"
 #include "tools/api/open/moves.h"
 #include "tools/python/held.h"
@@ -15,6 +18,9 @@ using Clock = std::chrono::steady_clock;
 /// Intervals at which signals such as that of Ctrl-C are looked for, and progress is shown.
 constexpr auto between_signals = std::chrono::milliseconds(20);
 constexpr auto between_reports = std::chrono::milliseconds(100);
+
+/// The fewest cycles of a run that is worth a warning about what it computes.
+constexpr std::uint64_t long_run = 10'000;
 
 /// Whether this is the thread in which Python handles signals.
 bool in_main_thread() {
@@ -146,6 +152,22 @@ void PythonRun::step() {
     check_finite();
 }
 
+void PythonRun::check_demand(std::uint64_t cycles) const {
+    if (cycles < long_run) return;
+    std::vector<int> shown;
+    for (const auto& [column, view] : views_) shown.push_back(column.first);
+    const std::size_t count = prunable_groups(*run_, shown);
+    if (count == 0) return;
+    Diagnostics warnings;
+    warnings.warning(
+        {},
+        fmt::format("{} of {} groups are computed only because they may be read later", count,
+                    run_->layout().groups.size()),
+        "with the sources that you read, forage.open(..., observe=[...]) is faster, and gives the same "
+        "numbers");
+    warn(warnings);
+}
+
 void PythonRun::check_finite() {
     if (diverged_ || run_->divergence().empty()) return;
     diverged_ = true;
@@ -164,6 +186,7 @@ bool PythonRun::advance(const RunLength& length, const py::object& progress, boo
     whole.in_code = true;
     const auto stop = StopCondition::make(whole, *run_, mistakes);
     throw_errors(mistakes);
+    check_demand(stop.cycles().value_or(0));
     const auto origin = StopCondition::begin(*run_);
     const auto after_cycle = [&](const StopCondition&, const StopOrigin&) {
         if (due()) {

@@ -64,6 +64,8 @@ class PythonRun : public std::enable_shared_from_this<PythonRun> {
         std::uint64_t every;
     };
     bool due() const;
+    /// Warns before a long run that groups are computed which nothing needs.
+    void check_demand(std::uint64_t cycles) const;
     /// Raises or warns, once, when a number is not finite.
     void check_finite();
     void call_back();
