@@ -1,6 +1,8 @@
-"""The stubs say what is there."""
+"""The stubs say what is there, and the examples of the docs are programs without mistakes of types."""
 import importlib.util
+import json
 import os
+import re
 import subprocess
 import sys
 
@@ -10,8 +12,18 @@ import forage
 from conftest import PROJECT
 
 PACKAGE = os.environ["PYTHONPATH"]
-# Some packages are imported when they are needed. The fallback for gymnasium is not annotated.
-CONFIGURATION = "[mypy]\nignore_missing_imports = True\n[mypy-forage._spaces]\nignore_errors = True\n"
+# Some packages are imported when they are needed. The fallback for gymnasium is not annotated. Examples declare no types of their
+# functions, and give a name to several things.
+CONFIGURATION = """[mypy]
+ignore_missing_imports = True
+[mypy-forage._spaces]
+ignore_errors = True
+[mypy-docs.*]
+allow_redefinition = True
+disallow_untyped_defs = False
+disallow_incomplete_defs = False
+disallow_untyped_calls = False
+"""
 # The metaclass and the constructor are pybind11's; annotations use names that are imported for mypy only. Private functions take
 # arguments without names. typing.MutableMapping is positional where collections.abc.MutableMapping is not.
 ALLOWED = r"""forage(\._forage)?\._?[A-Z]\w*(\.[A-Z]\w*)?
@@ -59,6 +71,21 @@ MODULES = [
 ]
 
 
+def write_examples(folder):
+    """A module per page and notebook. Blocks of pages that import nothing are equations, and those named py are programs of other tools."""
+    folder.mkdir()
+    (folder / "__init__.py").touch()
+    for file in [*PROJECT.glob("docs/**/*.md"), *PROJECT.glob("docs/notebooks/*.ipynb")]:
+        text = file.read_text()
+        if file.suffix == ".md":
+            blocks = re.findall(r"^```python\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+        else:
+            blocks = ["".join(cell["source"]) for cell in json.loads(text)["cells"] if cell["cell_type"] == "code"]
+        program = "\n".join(blocks) + "\n"
+        if "import " in program:
+            (folder / f"{re.sub('[^a-z]', '_', file.stem)}.py").write_text(program)
+
+
 @pytest.fixture(scope="module")
 def checks(tmp_path_factory):
     """Both checks, which run at the same time: most of theirs is reading the stubs of NumPy, which mypy keeps in the folder of the build."""
@@ -67,6 +94,8 @@ def checks(tmp_path_factory):
     folder = tmp_path_factory.mktemp("stubs")
     for name, text in {"mypy.ini": CONFIGURATION, "allowed": ALLOWED, "program.py": PROGRAM}.items():
         (folder / name).write_text(text)
+
+    write_examples(folder / "docs")
 
     def start(module, *arguments):
         return subprocess.Popen(
@@ -80,13 +109,13 @@ def checks(tmp_path_factory):
 
     cache = os.path.join(os.path.dirname(PACKAGE), "mypy_cache")
     return {
-        "strict": start("mypy", "--strict", "--config-file", "mypy.ini", "--cache-dir", cache, "program.py", *MODULES),
+        "strict": start("mypy", "--strict", "--config-file", "mypy.ini", "--cache-dir", cache, "program.py", "docs", *MODULES),
         "stubs": start("mypy.stubtest", "--mypy-config-file", "mypy.ini", "--allowlist", "allowed", "--ignore-unused-allowlist", "forage"),
     }
 
 
 @pytest.mark.parametrize("check", ["strict", "stubs"])
-def test_programs_and_the_package_are_strict_and_stubs_agree_with_it(check, checks):
+def test_programs_the_docs_and_the_package_are_strict_and_stubs_agree_with_it(check, checks):
     said, _ = checks[check].communicate()
     assert checks[check].returncode == 0, said
 

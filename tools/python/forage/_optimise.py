@@ -14,7 +14,7 @@ from . import _forage
 from ._errors import RunError
 from ._experiment import Path, Progress, Table, _reporter, _seeds, sweep
 
-Cost = typing.Union[str, typing.Callable[[Table], float]]
+Cost = typing.Union[str, typing.Callable[[Table], typing.Any]]  # a number, which NumPy calls Any
 _Points = numpy.ndarray[typing.Any, numpy.dtype[numpy.float64]]
 _Evaluate = typing.Callable[[_Points], _Points]
 
