@@ -271,6 +271,8 @@ def test_live_numbers_are_exported_read_only(run):
         assert name(capsule) == b"dltensor_versioned"
         head = (ctypes.c_uint64 * 4).from_address(pointer(capsule, name(capsule)))
         assert head[0] == 1 and head[3] == 1  # version 1.0, read-only
+        copied = source.__dlpack__(max_version=(1, 0), copy=True)
+        assert (ctypes.c_uint64 * 4).from_address(pointer(copied, name(copied)))[3] == 2  # a copy, which may be written
 
 
 class Copying:

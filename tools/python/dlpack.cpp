@@ -31,7 +31,7 @@ struct Versioned {
     std::uint64_t flags;
     DLTensor tensor;
 };
-constexpr std::uint64_t flag_read_only = 1;
+constexpr std::uint64_t flag_read_only = 1, flag_is_copied = 2;
 
 /// A capsule's structure, the array that it shows, and its shape.
 template <class Structure>
@@ -46,8 +46,8 @@ struct Export {
     }
 };
 
-template <class Structure>
-py::object capsule(const py::array& numbers, const char* name, void (*complete)(Structure&)) {
+template <class Structure, class Complete>
+py::object capsule(const py::array& numbers, const char* name, Complete complete) {
     auto made = std::make_unique<Export<Structure>>();
     made->array = numbers;
     made->shape.assign(numbers.shape(), numbers.shape() + numbers.ndim());
@@ -83,13 +83,12 @@ py::object capsule(const py::array& numbers, const char* name, void (*complete)(
 
 }  // namespace
 
-py::object dlpack(const py::array& numbers, const py::object& max_version) {
-    const bool with_flags = !max_version.is_none() && max_version.cast<std::pair<int, int>>().first >= 1;
-    if (with_flags && !numbers.writeable())
-        return capsule<Versioned>(numbers, "dltensor_versioned",
-                                  [](Versioned& v) { v.major = 1, v.minor = 0, v.flags = flag_read_only; });
-    if (with_flags)
-        return capsule<Versioned>(numbers, "dltensor_versioned", [](Versioned& v) { v.major = 1; });
+py::object dlpack(const py::array& numbers, const py::object& max_version, bool copied) {
+    if (!max_version.is_none() && max_version.cast<std::pair<int, int>>().first >= 1)
+        return capsule<Versioned>(numbers, "dltensor_versioned", [&](Versioned& v) {
+            v.major = 1;
+            v.flags = (numbers.writeable() ? 0 : flag_read_only) | (copied ? flag_is_copied : 0);
+        });
     if (!numbers.writeable())
         throw py::buffer_error(
             "the numbers are read-only, which this version of DLPack cannot say: take a copy, "

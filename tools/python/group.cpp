@@ -185,7 +185,7 @@ The array of a state is read-only, copies nothing, and is live: it shows the num
 cycle that is being computed while the run runs. It keeps its run in memory, and shows its last numbers when the run is closed. Inputs, and states of
 types that keep several cycles (history), are copies of the last cycle's numbers. `numpy.array(group.act)` is a copy, too.
 
-NumPy takes a group as its activity, group[index] is a part of it, and other packages take it live by DLPack: torch.from_dlpack(group).
+NumPy takes a group as its activity, group[index] is a part of it, and other packages take it live and read-only by DLPack.
 
 A state that is not observed raises InputError (forage.open, observe).)");
     add_array(type, &activity_of), add_dlpack(type, &activity_of), add_equality(type);
