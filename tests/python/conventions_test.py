@@ -61,6 +61,7 @@ def test_signatures_have_names_and_defaults():
         (lambda run: forage.open(REACTIVE, seed=-1), "open(): seed cannot be -1"),
         (lambda run: forage.open(REACTIVE, seed=2**64), "open(): seed cannot be 18446744073709551616"),
         (lambda run: run.run(cycles="a"), "run(): cycles is an integer or None, not 'a'"),
+        (lambda run: forage.Run(), "Run() cannot be called: other functions of Forage return its objects"),
         (lambda run: run.probe(), "probe() lacks the argument source"),
         (lambda run: run.probe(LIGHT, source=LIGHT), "probe() has two values for source"),
         (lambda run: run[3], "[...]: name is a text, not 3"),

@@ -123,6 +123,12 @@ void complete(const py::handle& function) {
     method->ml_doc = strdup(text.c_str());
 }
 
+int refuse_to_construct(PyObject* self, PyObject*, PyObject*) {
+    PyErr_Format(PyExc_TypeError, "%s() cannot be called: other functions of Forage return its objects",
+                 py::type::of(self).attr("__name__").cast<std::string>().c_str());
+    return -1;
+}
+
 /// inspect.signature() of a class without a constructor finds no arguments, where it fails without this text.
 void complete_class(const py::handle& type) {
     if (PyInstanceMethod_Check(py::object(type.attr("__dict__")["__init__"]).ptr())) return;
@@ -132,6 +138,7 @@ void complete_class(const py::handle& type) {
     if (!copy) throw std::bad_alloc();
     std::memcpy(copy, text.c_str(), text.size() + 1);
     PyObject_Free(const_cast<char*>(std::exchange(c->tp_doc, copy)));
+    c->tp_init = refuse_to_construct;
 }
 
 void complete_members(const py::handle& scope) {
