@@ -29,9 +29,7 @@ def public_things(scope, path=""):
             yield from public_things(found, f"{path}{name}.")
 
 
-@pytest.mark.parametrize(
-    "name, thing", [*public_things(forage), *public_things(forage.gym, "gym.")], ids=lambda x: x if isinstance(x, str) else ""
-)
+@pytest.mark.parametrize("name, thing", [*public_things(forage), *public_things(forage.gym, "gym.")], ids=lambda x: x if isinstance(x, str) else "")
 def test_everything_public_has_a_signature(name, thing):
     for parameter in inspect.signature(thing).parameters.values():
         assert parameter.default is not ... and not parameter.name.startswith("arg0")
