@@ -865,6 +865,8 @@ class Others(Cli):
         png = (self.here / "figure.png").read_bytes()
         self.assertAlmostEqual(int.from_bytes(png[16:20], "big"), 180 / 25.4 * 300, delta=1)
         self.assertEqual(sorted(p.name for p in self.here.iterdir()), ["figure.pdf", "figure.png", "figure.svg"])
+        self.forage("plot", SYSTEM, "diagram", "--width", "600px")
+        self.assertEqual(int.from_bytes((self.here / "diagram.png").read_bytes()[16:20], "big"), 600)
         self.assertIn("3 plots do not fit into 1 x 2 panels", self.forage(*figure[:-1], "1x2", status=2).stderr)
         self.assertIn("write ROWSxCOLUMNS", self.forage(*figure[:-1], "2by2", status=2).stderr)
 

@@ -137,17 +137,19 @@ RunOutcome run(const RunSpec& spec, const RunCallbacks& callbacks) {
 std::vector<std::string> draw(const std::string& from, const std::vector<std::string>& plots,
                               const std::string& directory, const std::string& format,
                               const std::vector<std::string>& where, const std::string& layout,
-                              double width_mm) {
+                              const std::string& width) {
     Diagnostics diagnostics;
     std::vector<std::string> out;
     std::optional<plot::FigureLayout> panels;
-    if (!layout.empty()) panels = plot::parse_layout(layout, width_mm, diagnostics);
+    if (!layout.empty()) panels = plot::parse_layout(layout, diagnostics);
+    std::optional<plot::FigureWidth> size;
+    if (!width.empty()) size = plot::parse_width(width, diagnostics);
     const auto picture = plot::format_of("x." + format);
     if (!picture) diagnostics.error({}, "'" + format + "' is not a format of pictures", "png, svg or pdf");
     try {
         Results results = open_results(from);
         if (picture && !diagnostics.failed())
-            out = draw(results, plots, directory, *picture, diagnostics, where, panels);
+            out = draw(results, plots, directory, *picture, diagnostics, where, panels, size);
     } catch (const FileError& e) {
         report(e, diagnostics);
     }

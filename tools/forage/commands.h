@@ -60,7 +60,7 @@ struct PlotOptions {
     std::string directory;           ///< empty: beside the source; for a system, the working directory
     std::string plot_format = "png";
     std::string layout;  ///< "ROWSxCOLUMNS" of the panels of one figure; empty: a file per plot
-    double width = 0;    ///< of the figure, mm; 0: that of its panels
+    std::string width;   ///< "85mm" or "600px"; empty: that of each picture
 };
 
 struct DescribeOptions {

@@ -283,17 +283,15 @@ void add_plot(CLI::App& app, PlotOptions& o) {
     plot.add_option("-o,--output", o.directory, "Directory for pictures [beside FROM]")
         ->check(named("directory"))
         ->option_text("DIR");
-    auto* layout =
-        plot.add_option("--layout", o.layout,
-                        "Draw the plots as panels a, b, c, ... of one figure, row by row: '2x3' are "
-                        "two rows of three panels")
-            ->option_text("ROWSxCOLUMNS");
+    plot.add_option("--layout", o.layout,
+                    "Draw the plots as panels a, b, c, ... of one figure, row by row: '2x3' are "
+                    "two rows of three panels")
+        ->option_text("ROWSxCOLUMNS");
     plot.add_option("--width", o.width,
-                    "Width of the figure in mm, such as 85 or 180 for one or two columns of a paper; PNG "
-                    "then has 300 dots per inch [that of its panels]")
-        ->needs(layout)
-        ->check(CLI::Range(10.0, 2000.0))
-        ->option_text("MM");
+                    "Width of each picture: '600px', or in mm, such as 85 or 180 for one or two columns of a "
+                    "paper; PNG then has 300 dots per inch [that which suits its content]")
+        ->check(named("width"))
+        ->option_text("WIDTH");
     add_plot_format(plot, o.plot_format);
 }
 

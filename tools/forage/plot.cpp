@@ -21,10 +21,12 @@ int plot(const PlotOptions& o) {
             "name a directory of results, a recording (.csv, .npy, .npz, .h5) or a system (.iqr)");
     }
     std::optional<plot::FigureLayout> layout;
-    if (results && !o.layout.empty()) layout = plot::parse_layout(o.layout, o.width, diagnostics);
+    if (results && !o.layout.empty()) layout = plot::parse_layout(o.layout, diagnostics);
+    std::optional<plot::FigureWidth> width;
+    if (results && !o.width.empty()) width = plot::parse_width(o.width, diagnostics);
     if (results && !diagnostics.failed())
         for (const auto& file : draw(*results, o.plots, o.directory, *plot::format_of("x." + o.plot_format),
-                                     diagnostics, o.where, layout))
+                                     diagnostics, o.where, layout, width))
             print("{}\n", file);
     print(stderr, "{}", format(diagnostics));
     return diagnostics.failed() ? bad_input : fine;

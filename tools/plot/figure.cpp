@@ -10,11 +10,12 @@
 namespace forage::plot {
 namespace {
 
-constexpr double panel_gap = 16, panel_letter_height = 22, panel_letter_size = 16, pixels_per_mm = 96 / 25.4;
+constexpr double panel_gap = 16, panel_letter_height = 22, panel_letter_size = 16;
+constexpr double mm_per_inch = 25.4, dots_per_inch = 300, pixels_per_inch = 96;  // of print; of a canvas
 
 }  // namespace
 
-std::optional<FigureLayout> parse_layout(std::string_view text, double width_mm, Diagnostics& diagnostics) {
+std::optional<FigureLayout> parse_layout(std::string_view text, Diagnostics& diagnostics) {
     const auto x = text.find('x');
     const auto rows = parse_number<int>(text.substr(0, x));
     const auto columns = x == text.npos ? std::nullopt : parse_number<int>(text.substr(x + 1));
@@ -23,7 +24,7 @@ std::optional<FigureLayout> parse_layout(std::string_view text, double width_mm,
                           "write ROWSxCOLUMNS, for example 2x3, with at most 26 panels");
         return std::nullopt;
     }
-    return FigureLayout{*rows, *columns, width_mm > 0 ? std::optional(width_mm) : std::nullopt};
+    return FigureLayout{*rows, *columns};
 }
 
 Picture figure(std::vector<Picture> panels, const FigureLayout& layout) {
@@ -39,12 +40,8 @@ Picture figure(std::vector<Picture> panels, const FigureLayout& layout) {
             if (size > 0) out += size + panel_gap;  // an empty row takes no place
         return out;
     };
-    const double width = sum(widths), height = sum(heights);
-    const double scale = layout.width_mm ? *layout.width_mm * pixels_per_mm / width : 1;
-    return {width * scale, height * scale, [=, panels = std::move(panels)](Canvas& canvas) {
+    return {sum(widths), sum(heights), [=, panels = std::move(panels)](Canvas& canvas) {
                 cairo_t* c = canvas.cairo();
-                cairo_save(c);
-                cairo_scale(c, scale, scale);
                 double y = 0;
                 for (std::size_t i = 0, row = 0; i < panels.size(); ++row) {
                     double x = 0;
@@ -59,7 +56,35 @@ Picture figure(std::vector<Picture> panels, const FigureLayout& layout) {
                     }
                     y += heights[row] + panel_gap;
                 }
-                cairo_restore(c);
+            }};
+}
+
+std::optional<FigureWidth> parse_width(std::string_view text, Diagnostics& diagnostics) {
+    FigureWidth out;
+    std::string_view rest = text;
+    if (rest.ends_with("mm"))
+        rest.remove_suffix(2);
+    else if (rest.ends_with("px"))
+        rest.remove_suffix(2), out.in_pixels = true;
+    const auto value = parse_number<double>(rest);
+    const double min = out.in_pixels ? 40 : 10, max = out.in_pixels ? 20'000 : 2'000;
+    if (!value || !(*value >= min && *value <= max)) {
+        diagnostics.error({}, fmt::format("--width '{}' is no width of a figure", text),
+                          "write 10mm to 2000mm, or 40px to 20000px");
+        return std::nullopt;
+    }
+    out.value = *value;
+    return out;
+}
+
+Picture scaled(const Picture& picture, const FigureWidth& width, Format format) {
+    const double per_mm = (format == Format::png ? dots_per_inch : pixels_per_inch) / mm_per_inch;
+    const double scale = width.value * (width.in_pixels ? 1 : per_mm) / picture.width;
+    return {picture.width * scale, picture.height * scale, [picture, scale](Canvas& canvas) {
+                cairo_save(canvas.cairo());
+                cairo_scale(canvas.cairo(), scale, scale);
+                picture.draw(canvas);
+                cairo_restore(canvas.cairo());
             }};
 }
 

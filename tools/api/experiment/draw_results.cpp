@@ -203,21 +203,34 @@ std::optional<plot::Picture> draw_other(const PlotSpec& spec, Results& results,
     return picture;
 }
 
+/// A picture that is no animation; empty when there was an error.
+std::optional<plot::Picture> draw_picture(const PlotSpec& spec, Results& results,
+                                          const std::optional<Loaded>& loaded, Diagnostics& diagnostics) {
+    if (!spec.of_cells()) return draw_other(spec, results, loaded, diagnostics);
+    const auto rows = draw_rows(results, spec, loaded, diagnostics);
+    return rows ? std::optional(rows->picture(results.context)) : std::nullopt;
+}
+
+std::string render(const plot::Picture& picture, const std::optional<plot::FigureWidth>& width,
+                   plot::Format format) {
+    return plot::render(width ? plot::scaled(picture, *width, format) : picture, format);
+}
+
 /// A picture as the content of a file; empty when there was an error.
-std::string draw_file(const PlotSpec& spec, Results& results, const std::optional<Loaded>& loaded,
-                      plot::Format format, Diagnostics& diagnostics) {
-    if (spec.of_cells()) {
+std::string draw_file(const PlotSpec& spec, const std::optional<plot::FigureWidth>& width, Results& results,
+                      const std::optional<Loaded>& loaded, plot::Format format, Diagnostics& diagnostics) {
+    if (spec.kind == Kind::movie) {
         const auto rows = draw_rows(results, spec, loaded, diagnostics);
         return rows ? rows->draw(format, results.context) : "";
     }
-    const auto picture = draw_other(spec, results, loaded, diagnostics);
-    return picture ? plot::render(*picture, format) : "";
+    const auto picture = draw_picture(spec, results, loaded, diagnostics);
+    return picture ? render(*picture, width, format) : "";
 }
 
 /// The pictures as panels of one figure, as the content of a file; empty when there was an error.
 std::string draw_figure(const std::vector<PlotSpec>& specs, const plot::FigureLayout& layout,
-                        Results& results, const std::optional<Loaded>& loaded, plot::Format format,
-                        Diagnostics& diagnostics) {
+                        const std::optional<plot::FigureWidth>& width, Results& results,
+                        const std::optional<Loaded>& loaded, plot::Format format, Diagnostics& diagnostics) {
     const auto places = static_cast<std::size_t>(layout.rows) * static_cast<std::size_t>(layout.columns);
     if (specs.size() > places || specs.size() > plot::max_panels_of_figure)
         diagnostics.error(
@@ -232,17 +245,10 @@ std::string draw_figure(const std::vector<PlotSpec>& specs, const plot::FigureLa
     std::vector<plot::Picture> panels;
     for (const auto& spec : specs) {
         if (diagnostics.failed()) return {};
-        if (!spec.of_cells()) {
-            if (auto picture = draw_other(spec, results, loaded, diagnostics)) panels.push_back(*picture);
-        } else if (const auto rows = draw_rows(results, spec, loaded, diagnostics)) {
-            panels.push_back(rows->picture(results.context));
-        }
+        if (auto picture = draw_picture(spec, results, loaded, diagnostics)) panels.push_back(*picture);
     }
     if (diagnostics.failed()) return {};
-    plot::FigureLayout size = layout;
-    constexpr double dots_per_inch = 300, pixels_per_inch = 96;  // in print; of other pictures
-    if (format == plot::Format::png && size.width_mm) *size.width_mm *= dots_per_inch / pixels_per_inch;
-    return plot::render(plot::figure(std::move(panels), size), format);
+    return render(plot::figure(std::move(panels), layout), width, format);
 }
 
 }  // namespace
@@ -250,7 +256,8 @@ std::string draw_figure(const std::vector<PlotSpec>& specs, const plot::FigureLa
 std::vector<std::string> draw(Results& results, const std::vector<std::string>& plots, std::string directory,
                               plot::Format format, Diagnostics& diagnostics,
                               const std::vector<std::string>& where,
-                              const std::optional<plot::FigureLayout>& layout) {
+                              const std::optional<plot::FigureLayout>& layout,
+                              const std::optional<plot::FigureWidth>& width) {
     if (results.experiment)
         keep_runs(*results.experiment, where, diagnostics);
     else if (!where.empty())
@@ -289,10 +296,11 @@ std::vector<std::string> draw(Results& results, const std::vector<std::string>& 
     };
     if (layout)
         add("figure" + std::string(plot::ending(format)),
-            [&] { return draw_figure(specs, *layout, results, loaded, format, diagnostics); });
+            [&] { return draw_figure(specs, *layout, width, results, loaded, format, diagnostics); });
     else
         for (const auto& spec : specs)
-            add(spec.file(format), [&] { return draw_file(spec, results, loaded, format, diagnostics); });
+            add(spec.file(format),
+                [&] { return draw_file(spec, width, results, loaded, format, diagnostics); });
     if (diagnostics.failed()) return {};  // no picture beside a mistake
     for (const auto& [file, picture] : pictures)
         attempt([&, &file = file, &picture = picture] {

@@ -7,7 +7,6 @@
 
 #include "core/base/named_file.h"
 #include "core/base/table.h"
-#include "core/run/run_json.h"
 
 namespace forage {
 namespace {
@@ -21,10 +20,9 @@ TableReader open_table(const std::string& path) {
     return out;
 }
 
-/// Reads what run.json and trials.csv in `directory` say about the run. Returns the recordings that they
-/// name.
-std::vector<ResultFiles::Recording> read_run(const std::string& directory, Results& out) {
-    auto run = read_run_json(directory);
+/// Takes what is known about the run, and what trials.csv in `directory` says. Returns the recordings.
+std::vector<ResultFiles::Recording> take_run(const std::string& directory, std::optional<FinishedRun> run,
+                                             Results& out) {
     if (!run) return {};
     out.input = std::move(run->input);
     out.context.run = run_title(out.input);
@@ -63,7 +61,28 @@ void add_recording(const fs::path& path, const std::vector<ResultFiles::Recordin
     }
 }
 
+/// The results of a run in a directory.
+Results results_in(const std::string& directory, std::optional<FinishedRun> run) {
+    Results out;
+    out.path = out.directory = directory;
+    const auto known = take_run(directory, std::move(run), out);
+    std::vector<fs::path> files;
+    for (const auto& entry : fs::directory_iterator(directory)) {
+        const std::string name = entry.path().filename().string();
+        const bool recording =
+            observe::is_recording(name) && !name.starts_with("trials") && !name.starts_with("trajectory");
+        if (recording && entry.is_regular_file()) files.push_back(entry.path());
+    }
+    std::ranges::sort(files);
+    for (const auto& f : files) add_recording(f, known, out);
+    return out;
+}
+
 }  // namespace
+
+Results results_of(const std::string& directory, FinishedRun run) {
+    return results_in(directory, std::move(run));
+}
 
 Results open_results(const std::string& path) {
     Results out;
@@ -85,23 +104,14 @@ Results open_results(const std::string& path) {
         }
         out.context.run = fs::weakly_canonical(path).filename().string();
     } else if (fs::is_directory(path)) {
-        out.directory = path;
-        const auto known = read_run(path, out);
-        std::vector<fs::path> files;
-        for (const auto& entry : fs::directory_iterator(path)) {
-            const std::string name = entry.path().filename().string();
-            const bool recording =
-                observe::is_recording(name) && !name.starts_with("trials") && !name.starts_with("trajectory");
-            if (recording && entry.is_regular_file()) files.push_back(entry.path());
-        }
-        std::ranges::sort(files);
-        for (const auto& f : files) add_recording(f, known, out);
+        return results_in(path, read_run_json(path));
     } else if (const auto end = fs::path(path).extension(); end == ".iqr" || end == ".iqrProcess") {
         out.input.system = path;
         out.context.run = fs::path(path).filename().string();
     } else {
         const fs::path parent = fs::path(path).parent_path();
-        const auto known = read_run(parent.empty() ? "." : parent.string(), out);
+        const std::string directory = parent.empty() ? "." : parent.string();
+        const auto known = take_run(directory, read_run_json(directory), out);
         add_recording(path, known, out);
     }
     return out;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/observe/recording.h"
+#include "core/run/run_json.h"
 #include "core/run/run_spec.h"
 #include "tools/api/experiment/experiment_plots.h"
 #include "tools/plot/figure.h"
@@ -33,17 +34,23 @@ struct Results {
 /// file. Throws FileError.
 Results open_results(const std::string& path);
 
+/// The results of a run in `directory`, which may lack a run.json: `run` says what is in it. Throws
+/// FileError.
+Results results_of(const std::string& directory, FinishedRun run);
+
 /// The robot's path in each trial. Throws FileError for tables that are damaged or do not belong together.
 std::vector<plot::Path> read_paths(const std::string& directory);
 
 /// Draws `plots` ("time:Process/Group", "trajectory"), or the usual pictures of these results when there are
 /// none, into `directory` (empty: beside the results, or the working directory for a system). Reports
 /// mistakes in `plots`. Of an experiment, only the runs that `where` keeps are drawn, see keep_runs().
-/// With a `layout`, they are the panels of one file "figure". Returns the paths of the written files.
+/// With a `layout`, they are the panels of one file "figure". Without a `width`, pictures keep their sizes;
+/// an animation always does. Returns the paths of the written files.
 std::vector<std::string> draw(Results& results, const std::vector<std::string>& plots, std::string directory,
                               plot::Format format, Diagnostics& diagnostics,
                               const std::vector<std::string>& where = {},
-                              const std::optional<plot::FigureLayout>& layout = {});
+                              const std::optional<plot::FigureLayout>& layout = {},
+                              const std::optional<plot::FigureWidth>& width = {});
 
 /// The pictures in the folders below a directory, in order of their paths relative to it. Folders of runs
 /// that their experiment's table does not name any more are left out.

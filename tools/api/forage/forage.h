@@ -87,12 +87,12 @@ RunOutcome run(const RunSpec& spec, const RunCallbacks& callbacks = {});
 /// system file (.iqr): `plots` such as "time:Process/Group" and "trajectory", or all that are possible when
 /// there are none. They are written into `directory`, or beside the results when it is empty, in a format
 /// that is png, svg or pdf. Of an experiment, `where` ("seed=1") chooses runs. Returns the names of the
-/// files. With a `layout` such as "2x3", the pictures are panels a, b, c, ... of one figure, row by row,
-/// which is `width_mm` wide, or as wide as its panels when it is 0. Throws InputError.
+/// files. With a `layout` such as "2x3", the pictures are panels a, b, c, ... of one figure, row by row. With
+/// a `width` such as "85mm" or "600px", they are enlarged or reduced to it. Throws InputError.
 std::vector<std::string> draw(const std::string& from, const std::vector<std::string>& plots = {},
                               const std::string& directory = {}, const std::string& format = "png",
                               const std::vector<std::string>& where = {}, const std::string& layout = {},
-                              double width_mm = 0);
+                              const std::string& width = {});
 
 /// Draws a picture of a run as it is now, such as "time:Process/Group", "diagram" and "trajectory", as
 /// `forage run --plot` does. Returns the content of a file in a format that is png, svg or pdf. Pictures over
