@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """The studio over its sockets: what it refuses, its flow control, and that watching changes nothing."""
+import base64
 import os
 import math
 import pathlib
@@ -451,6 +452,46 @@ class Watching(unittest.TestCase):
                 check=True,
             )
             self.assertEqual(pathlib.Path(file).read_bytes(), pathlib.Path(folder, 'out/run.csv').read_bytes())
+
+    def test_figures_are_those_of_the_command_line(self):
+        """The content of a figure, and the file that the commands beside it make, byte for byte."""
+        self.page.do('step', cycles=700)
+        self.page.do('step', cycles=700)
+        figures = (
+            ({'plots': ['time:Bug/Light']}, 'svg'),
+            ({'plots': ['time:mean(Bug/Light)'], 'width': '85mm', 'from': 300}, 'pdf'),
+            ({'plots': ['time:mean(Bug/Light)', 'time:max(Bug/Motor)'], 'layout': '2x1', 'width': '600px', 'from': 1000}, 'png'),
+            ({'plots': ['space:Bug/Motor'], 'from': 1399}, 'svg'),
+            ({'plots': ['trajectory'], 'width': '85'}, 'png'),
+            ({'plots': ['learning']}, 'svg'),
+            ({'plots': ['diagram']}, 'svg'),
+            ({'plots': ['connection:Light to US'], 'width': '400px'}, 'pdf'),
+        )
+        before = self.page.do('digest')
+        for wanted, form in figures:
+            with self.subTest(**wanted), tempfile.TemporaryDirectory() as folder:
+                figure = self.page.do('figure', format=form, **wanted)
+                self.assertEqual(figure['note'], '')
+                script = f'set -e\nforage() {{ "{forage}" "$@" > log 2>&1 || {{ cat log; exit 1; }}; }}\n{figure["shell"]}'
+                done = subprocess.run(['bash', '-c', script], cwd=folder, capture_output=True, text=True)
+                self.assertEqual((done.returncode, done.stdout, done.stderr), (0, '', ''), figure['shell'])
+                (file,) = pathlib.Path(folder).rglob(figure['file'])
+                self.assertEqual(base64.b64decode(figure['content']), file.read_bytes())
+        self.assertEqual(self.page.do('digest'), before)
+        for wanted, message in (
+            ({'plots': ['time:Bug/None']}, "Bug/None"),
+            ({'plots': ['time:Bug/Light'], 'from': 1400}, 'cycle 1400 has not been computed'),
+            ({'plots': ['time:Bug/Light'], 'width': 'wide'}, 'is no width'),
+            ({'plots': ['diagram', 'trajectory']}, 'a figure is one file'),
+        ):
+            self.assertIn(message, self.page.ask('figure', **wanted)['problems'][0]['message'])
+        self.page.do('begin_trial')
+        self.page.do('step', cycles=10)
+        self.assertIn('the Log', self.page.do('figure', plots=['time:mean(Bug/Light)'])['note'])
+        self.page.do('set', assignments=['Bug/Light.threshold=0.5'])
+        self.assertIn('Save the system', self.page.do('figure', plots=['time:mean(Bug/Light)'])['note'])
+        self.page.do('stop')
+        self.assertIn('nothing to draw yet', self.page.ask('figure', plots=['trajectory'])['problems'][0]['message'])
 
     def test_the_sampler_appends_and_numbers_its_files(self):
         with tempfile.TemporaryDirectory() as folder:

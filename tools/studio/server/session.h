@@ -118,6 +118,9 @@ class Session {
     /// Does something with the second run in the place of the run. When that fails, the second run ends.
     void with_reference(const std::function<void()>& act);
     void step_reference();
+    /// Lets the session work on a copy of its run, in the state of the last checkpoint before `cycle`, until
+    /// act() returns.
+    void with_copy(std::uint64_t cycle, const std::function<void()>& act);
     void begin_reference(std::uint64_t cycle);
     /// Lets a second run with this past go beside the run, from `cycle` on. Its run is made here.
     void run_beside(Reference made, std::uint64_t cycle);

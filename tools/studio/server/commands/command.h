@@ -65,6 +65,7 @@ const Command& find_command(const std::string& name);
 /// The commands of a topic, each in the file of its name.
 std::vector<Command> run_commands();
 std::vector<Command> looking_commands();
+std::vector<Command> figure_commands();
 std::vector<Command> parameter_commands();
 std::vector<Command> undo_commands();
 std::vector<Command> intervening_commands();

@@ -10,9 +10,10 @@ namespace forage::studio {
 namespace {
 
 using Topic = std::vector<Command> (*)();
-constexpr Topic topics[] = {run_commands,         looking_commands,  parameter_commands, undo_commands,
-                            intervening_commands, sampling_commands, panel_commands,     layout_commands,
-                            past_commands,        editing_commands,  document_commands,  world_commands};
+constexpr Topic topics[] = {run_commands,    looking_commands,     figure_commands,   parameter_commands,
+                            undo_commands,   intervening_commands, sampling_commands, panel_commands,
+                            layout_commands, past_commands,        editing_commands,  document_commands,
+                            world_commands};
 
 /// Removes the generation that a command names. Throws Conflict when it is not the present one.
 void take_generation(const Session& session, const Command& command, json& arguments) {

@@ -2,6 +2,8 @@
 import type { IDockviewPanel } from 'dockview-core';
 import type { Entries, Entry } from '../edit/menu.svelte';
 import { dock } from '../stores/dock.svelte';
+import type { PanelState } from '../panels/registry';
+import { figureDialog } from './figure_dialog.svelte';
 import { canMove, close, closeOthers, float, floats, join, maximize, move, reorder, resize, shares, split, unfloat, type Side } from '../stores/moves';
 
 const ways: [Side, string][] = [['left', '←'], ['right', '→'], ['above', '↑'], ['below', '↓']];
@@ -15,6 +17,7 @@ const others = (p: IDockviewPanel) =>
 
 export function panelMenu(p: IDockviewPanel): Entries {
   const at = p.group.panels.indexOf(p), stacks = others(p);
+  const panel = p.params as PanelState;
   const joins: Entry[] = stacks.map(({ group, name }) => ({ label: name, act: () => join(p, group) }));
   return [
     ...ways.map(([side, arrow]) => ({ label: `Move ${side}`, keys: `Ctrl Shift ${arrow}`, disabled: !canMove(p, side), act: () => move(p, side) })),
@@ -30,6 +33,7 @@ export function panelMenu(p: IDockviewPanel): Entries {
     { label: 'Narrower', keys: 'Alt Shift ←', act: () => resize(p, -1, 0) },
     { label: 'Taller', keys: 'Alt Shift ↓', act: () => resize(p, 0, 1) },
     { label: 'Shorter', keys: 'Alt Shift ↑', act: () => resize(p, 0, -1) },
+    ...(figureDialog.of(panel) ? [null, { label: 'Export figure…', act: () => figureDialog.open(panel) }] : []),
     null,
     { label: 'Close', keys: 'Del', act: () => close(p) },
     ...(shares(p) ? [{ label: 'Close the other tabs', act: () => closeOthers(p) }] : []),

@@ -87,6 +87,11 @@ export interface Commands {
     arguments: { robot?: string | null; from?: number | null };
     result: { trials: Trial[] };
   };
+  /** Draws a figure of the run, as `forage plot` does from its results. Sources are recorded by repeating the past. Returns the content of the file in base64, the lines of a shell that make the same file, and why they may give another one. */
+  figure: {
+    arguments: { plots: string[]; format?: 'png' | 'svg' | 'pdf' | null; layout?: string | null; width?: string | null; from?: number | null };
+    result: { file: string; content: string; shell: string; note: string };
+  };
   /** Describes the parameters of an item. */
   parameters: {
     arguments: { item: string };
