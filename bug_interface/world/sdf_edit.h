@@ -46,10 +46,11 @@ struct WorldItem {
 /// What can be edited in a well-formed text: the world, and what is in it, in file order.
 std::vector<WorldItem> items_of_world(std::string_view text, ModelTexts& models);
 
-/// A kind that add_to_world() makes, and a sentence about it.
+/// A kind that add_to_world() makes, a sentence about it, and the heading of the kinds like it.
 struct ItemKind {
-    std::string_view kind, title;
+    std::string_view kind, title, group;
 };
+/// The kinds by their headings.
 std::vector<ItemKind> kinds_of_items();
 
 struct NewItem {

@@ -89,25 +89,27 @@ std::string model_uri(const ModelTexts& models) {
 }  // namespace
 
 std::vector<ItemKind> kinds_of_items() {
-    return {
-        {"wall", "A box that robots cannot pass"},
-        {"pillar", "A cylinder that robots cannot pass"},
-        {"patch", "A rectangle of colour on the floor"},
-        {"disc", "A round patch of colour on the floor"},
-        {"ball", "A ball that robots push"},
-        {"crate", "A box that robots push"},
-        {"light", "A target: robots see its light from afar and drive under it; reaching it ends a trial"},
-        {"goal", "A target that cameras see, too: a cylinder above the robots"},
-        {"resource", "A ball that counts when it is brought to a home"},
-        {"home", "Where a team brings resources: Home_A and Home_B"},
-        {"site", "Where resources of a game appear"},
-        {"start", "A pose in which trials begin: Reset_0 to Reset_9"},
-        {"robot", "A robot that a system drives; its model is chosen below"},
-        {"floor", "A floor whose bounds end trials: GroundPlane"},
-        {"sun", "The light that lights everything from one direction"},
-        {"trials", "Rules of trials: when they end"},
-        {"game", "Rules of a game of two teams"},
-        {"model", "Any model of the folders of models; it is chosen below"}};
+    constexpr std::string_view robots = "Robots", obstacles = "Obstacles", floors = "Floor",
+                               targets = "Targets", rules = "Rules and light";
+    return {{"robot", "A robot that a system drives; its model is chosen below", robots},
+            {"start", "A pose in which trials begin: Reset_0 to Reset_9", robots},
+            {"wall", "A box that robots cannot pass", obstacles},
+            {"pillar", "A cylinder that robots cannot pass", obstacles},
+            {"ball", "A ball that robots push", obstacles},
+            {"crate", "A box that robots push", obstacles},
+            {"model", "Any model of the folders of models; it is chosen below", obstacles},
+            {"patch", "A rectangle of colour on the floor", floors},
+            {"disc", "A round patch of colour on the floor", floors},
+            {"floor", "A floor whose bounds end trials: GroundPlane", floors},
+            {"light", "A target: robots see its light from afar and drive under it; reaching it ends a trial",
+             targets},
+            {"goal", "A target that cameras see, too: a cylinder above the robots", targets},
+            {"resource", "A ball that counts when it is brought to a home", targets},
+            {"home", "Where a team brings resources: Home_A and Home_B", targets},
+            {"site", "Where resources of a game appear", targets},
+            {"trials", "Rules of trials: when they end", rules},
+            {"game", "Rules of a game of two teams", rules},
+            {"sun", "The light that lights everything from one direction", rules}};
 }
 
 std::string new_item_text(const NewItem& item, ModelTexts& models) {

@@ -93,7 +93,7 @@ Axes WorldMap::axes() const {
             {view_.min().y(), view_.max().y()}};
 }
 
-void WorldMap::draw_ground(Canvas& canvas) const {
+void WorldMap::draw_floors(Canvas& canvas) const {
     canvas.fill(left_, top_, width(), height(), {0.5, 0.5, 0.5});
     try {
         for (const auto& floor : world_.scene()->floors())
@@ -101,6 +101,10 @@ void WorldMap::draw_ground(Canvas& canvas) const {
     } catch (const std::exception&) {
         // The map is drawn without the floor; the camera reports that its picture cannot be read.
     }
+}
+
+void WorldMap::draw_ground(Canvas& canvas) const {
+    draw_floors(canvas);
     auto solids = bug::drawing_of(world_.description());
     std::ranges::stable_sort(solids, [](const auto& a, const auto& b) { return top_of(a) < top_of(b); });
     for (const auto& d : solids) draw_solid(canvas, d);

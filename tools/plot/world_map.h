@@ -32,6 +32,7 @@ class WorldMap {
     double px(double x) const { return left_ + (x - view_.min().x()) * scale_; }
     double py(double y) const { return top_ + (view_.max().y() - y) * scale_; }
 
+    void draw_floors(Canvas& canvas) const;
     void draw_ground(Canvas& canvas) const;  ///< floors, then static solids, from the lowest to the highest
     void draw_movable_objects(Canvas& canvas) const;  ///< draws them at their current poses
     void draw_marks(Canvas& canvas) const;            ///< bounds and start poses

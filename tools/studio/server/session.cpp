@@ -46,11 +46,12 @@ json read_layout(const Run& run, const std::string& path) {
     return out;
 }
 
-/// The floor and what never moves, exactly on the view of a map.
-plot::Picture floor_picture(const bug::World& world) {
+/// The floors, with what never moves or without it, exactly on the view of a map.
+plot::Picture ground_picture(const bug::World& world, bool solids) {
     const plot::WorldMap map(world, {}, 1600, 0, 0);
-    return {std::floor(map.width()), std::floor(map.height()),
-            [map](plot::Canvas& canvas) { map.draw_ground(canvas); }};
+    return {std::floor(map.width()), std::floor(map.height()), [map, solids](plot::Canvas& canvas) {
+                solids ? map.draw_ground(canvas) : map.draw_floors(canvas);
+            }};
 }
 
 }  // namespace
@@ -162,7 +163,8 @@ json Session::world_message() {
     if (!world) return {{"type", "world"}, {"file", nullptr}};
     json out = describe_world(*world);
     const auto version = fmt::format("{}-{}", live.epoch, edited.generation);
-    out["picture"] = picture_address ? picture_address(version) : "";
+    for (const auto& [member, what] : {std::pair("picture", "world"), std::pair("floor", "floor")})
+        out[member] = picture_address ? picture_address(what, version) : "";
     return out;
 }
 
@@ -409,11 +411,11 @@ double Session::work(double now) {
 }
 
 std::string Session::picture(const std::string& what, const std::string& format) {
-    if (what != "world") return draw(*live.run, what, format);
+    if (what != "world" && what != "floor") return draw(*live.run, what, format);
     const auto* world = dynamic_cast<const bug::World*>(live.run->environment());
     const auto wanted = plot::format_of("x." + format);
     if (!world || !wanted) throw InputError("there is no such picture", "a picture of a world needs a world");
-    return plot::render(floor_picture(*world), *wanted);
+    return plot::render(ground_picture(*world, what == "world"), *wanted);
 }
 
 }  // namespace forage::studio

@@ -85,8 +85,8 @@ class Session {
 
     /// Ends the program for a page that asks for it; empty when it cannot.
     std::function<void()> quit;
-    /// The address at which pages find the picture of a version of the world.
-    std::function<std::string(const std::string& version)> picture_address;
+    /// The address at which pages find the picture of a version of the world, or of its floors.
+    std::function<std::string(const std::string& what, const std::string& version)> picture_address;
 
     Run& run() { return *live.run; }
     const RunInput& input() const { return edited.input; }

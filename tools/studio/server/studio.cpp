@@ -51,8 +51,9 @@ void serve(const StudioOptions& options, const std::function<void(const Ready&)>
     wanted.port = options.port;
     wanted.token = make_token(), wanted.picture_key = make_token();
     if (options.ticket) wanted.ticket = make_token();
-    session.picture_address = [key = wanted.picture_key](const std::string& version) {
-        return fmt::format("/picture?what=world&format=png&version={}&key={}", version, key);
+    session.picture_address = [key = wanted.picture_key](const std::string& what,
+                                                         const std::string& version) {
+        return fmt::format("/picture?what={}&format=png&version={}&key={}", what, version, key);
     };
     wanted.file = find_asset;
     wanted.opened = [&](int client) { engine->post([client](Session& s) { s.connect(client); }); };

@@ -25,7 +25,7 @@ EM_JS(void, keep_picture, (const char* bytes, int size, char* address, int most)
     const picture = new Blob([HEAPU8.slice(bytes, bytes + size)], {type: 'image/png'});
     // The page may still load the last one.
     const pictures = Module.pictures || (Module.pictures = []);
-    if (pictures.push(URL.createObjectURL(picture)) > 2) URL.revokeObjectURL(pictures.shift());
+    if (pictures.push(URL.createObjectURL(picture)) > 4) URL.revokeObjectURL(pictures.shift());
     stringToUTF8(pictures.at(-1), address, most);
 });
 // clang-format on
@@ -41,8 +41,8 @@ void send(int, bool binary, const std::string& data) {
     (binary ? post_bytes : post_text)(data.data(), static_cast<int>(data.size()));
 }
 
-std::string picture_address(const std::string&) {
-    const std::string png = session->picture("world", "png");
+std::string picture_address(const std::string& what, const std::string&) {
+    const std::string png = session->picture(what, "png");
     std::array<char, 256> address{};
     keep_picture(png.data(), static_cast<int>(png.size()), address.data(), address.size());
     return address.data();

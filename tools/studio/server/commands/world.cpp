@@ -123,8 +123,8 @@ json save_world(Session& s, const Request& r) {
 
 json list_kinds(Session&, const Request&) {
     json kinds = json::array();
-    for (const auto& [kind, title] : bug::kinds_of_items())
-        kinds.push_back({{"kind", kind}, {"title", title}});
+    for (const auto& [kind, title, group] : bug::kinds_of_items())
+        kinds.push_back({{"kind", kind}, {"title", title}, {"group", group}});
     return {{"kinds", std::move(kinds)}};
 }
 

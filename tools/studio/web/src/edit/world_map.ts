@@ -41,6 +41,33 @@ export function zoomed(v: View, factor: number, x: number, y: number): View {
   return { x: x - (x - v.x) * factor, y: y - (y - v.y) * factor, width: v.width * factor, height: v.height * factor };
 }
 
+/** The grid, m, and the angles, rad, to which things snap. */
+export const grid = 0.1, turn = Math.PI / 12;
+export const snapped = (v: number, step: number): number => Number((Math.round(v / step) * step).toFixed(6));
+
+/** The properties with the size of an item that has one part: those of a box or of a circle; empty for others. */
+export function sizesOf(i: WorldItem): string[] {
+  if (i.parts.length !== 1) return [];
+  const wanted = i.parts[0]!.size.length < 2 ? ['radius'] : ['width', 'depth'];
+  return wanted.every((w) => i.properties.some((p) => p.name === w)) ? wanted : [];
+}
+
+type Place = { x: number; y: number };
+
+/** The size that an item gets when a handle is dragged from one place of the world to another; its middle stays. `along`: which of a box's sizes change. */
+export function resized(i: WorldItem, from: Place, to: Place, along: [boolean, boolean], step: number): number[] {
+  const part = i.parts[0]!, [c, s] = [Math.cos(i.yaw), Math.sin(i.yaw)], yaw = i.yaw + part.yaw;
+  /** A place along the sides of the part. */
+  const local = (p: Place) => {
+    const x = p.x - i.x - (c * part.x - s * part.y), y = p.y - i.y - (s * part.x + c * part.y);
+    return [Math.cos(yaw) * x + Math.sin(yaw) * y, Math.cos(yaw) * y - Math.sin(yaw) * x] as const;
+  };
+  const [x0, y0] = local(from), [x1, y1] = local(to);
+  const grown = (size: number, by: number) => Math.max(step, snapped(size + by, step));
+  if (part.size.length < 2) return [grown(part.size[0]!, Math.hypot(x1, y1) - Math.hypot(x0, y0))];
+  return [Math.abs(x1) - Math.abs(x0), Math.abs(y1) - Math.abs(y0)].map((by, k) => (along[k] ? grown(part.size[k]!, 2 * by) : part.size[k]!));
+}
+
 export const rounded = (v: number): number => Math.round(v * 100) / 100;
 export const degrees = (yaw: number): number => Math.round((yaw * 18000) / Math.PI) / 100;
 

@@ -112,6 +112,8 @@ export interface WorldMessage {
   /** Left, bottom, right, top, in m. */
   view: [number, number, number, number];
   picture: string;
+  /** The picture of its floors alone, of the same view. */
+  floor: string;
   robots: RobotInfo[];
   objects: { name: string; resource: boolean; solids: Solid[] }[];
   solids: Solid[];
@@ -331,7 +333,8 @@ export type FilesResult = { folder: string; parent?: string | null; folders: str
 export type WorldPart = { x: number; y: number; yaw: number; size: number[]; color: string };
 export type WorldProperty = { name: string; label: string; kind: 'text' | 'number' | 'integer' | 'boolean' | 'choice' | 'color'; value: string | number | boolean; low: number | null; high: number | null; choices: string[] };
 export type WorldItem = { id: string; name: string; kind: string; placed: boolean; unpacks: boolean; x: number; y: number; z: number; yaw: number; parts: WorldPart[]; properties: WorldProperty[] };
-export type WorldKind = { kind: string; title: string };
+/** What can be added to a world; those with the same heading stand together. */
+export type WorldKind = { kind: string; title: string; group: string };
 /** The items of the world's file. The server sends it after each change of it. */
 export type WorldDocument = { type: 'world_document'; file: string; dirty: boolean; shipped: boolean; items: WorldItem[] };
 

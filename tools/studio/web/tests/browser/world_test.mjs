@@ -3,7 +3,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { accessible, find, until } from './support.mjs';
+import { accessible, find, picture, until } from './support.mjs';
 
 export default async function({ forage, folder, start, open, faults, step }) {
   const file = 'systems/worlds/basic_arena.world';
@@ -40,6 +40,69 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await until(page, 'the wall moves', (x) => Number(document.querySelector('[aria-label^="Properties of"] input.number')?.value) > x, before + 0.05);
   await field('Width, m').fill('1.5');
   await field('Width, m').press('Enter');
+
+  step('handles turn and resize it, each drag as one step of the history; a key switches snapping off');
+  const number = async (label) => Number(await field(label).inputValue());
+  const middle = async (locator) => {
+    const box = await locator.boundingBox();
+    return [box.x + box.width / 2, box.y + box.height / 2];
+  };
+  const dragTo = async (handle, x, y, key) => {
+    await page.mouse.move(...(await middle(map.locator(handle).first())));
+    if (key) await page.keyboard.down(key);
+    await page.mouse.down();
+    await page.mouse.move(x - 9, y, { steps: 3 });
+    await page.mouse.move(x, y);
+    await page.mouse.up();
+    if (key) await page.keyboard.up(key);
+  };
+  const becomes = (label, wanted) =>
+    until(page, `${label} is ${wanted}`, ([l, w]) => [...document.querySelectorAll('[aria-label^="Properties of"] .field')].some((f) => f.querySelector('label').textContent === l && f.querySelector('input').value === w), [label, wanted]);
+  await becomes('Width, m', '1.5');
+  const [cx, cy] = await middle(map.locator('.chosen polygon'));
+  await dragTo('.turn', cx + 3, cy - 120);
+  await becomes('Heading, °', '90');
+  const upwards = await middle(map.locator('.chosen polygon'));
+  await dragTo('.size', upwards[0], upwards[1] - 77);
+  await until(page, 'a wider wall', () => [...document.querySelectorAll('[aria-label^="Properties of"] .field')].some((f) => f.querySelector('label').textContent === 'Width, m' && f.querySelector('input').value !== '1.5'));
+  const wide = await number('Width, m');
+  assert.ok(Math.abs(wide * 10 - Math.round(wide * 10)) < 1e-9, `${wide} is on the grid`);
+  await page.keyboard.press('Control+z');
+  await becomes('Width, m', '1.5');
+  await page.keyboard.press('Control+z');
+  await becomes('Heading, °', '0');
+  const exact = await number('x, m');
+  await dragTo('.chosen', cx + 13, cy, 'Control');
+  await until(page, 'it has moved', (x) => Number(document.querySelector('[aria-label^="Properties of"] input.number')?.value) !== x, exact);
+  const free = await number('x, m');
+  assert.ok(Math.abs(free * 10 - Math.round(free * 10)) > 1e-6, `${free} is off the grid`);
+  await page.keyboard.press('Control+z');
+  await becomes('x, m', String(exact));
+
+  step('keys resize it, too');
+  await map.locator('.chosen').focus();
+  await page.keyboard.press('Control+ArrowRight');
+  await becomes('Width, m', '1.6');
+  await page.keyboard.press('Control+z');
+  await becomes('Width, m', '1.5');
+
+  step('the kinds stand under their headings, each with a drawing');
+  assert.deepEqual(await world.getByRole('toolbar').getByRole('group').evaluateAll((all) => all.map((g) => g.ariaLabel)), ['Robots', 'Obstacles', 'Floor', 'Targets', 'Rules and light']);
+  assert.equal(await world.getByRole('toolbar').locator('button svg').count(), await world.getByRole('toolbar').getByRole('button').count());
+
+  step('the form is in sight in a smaller window');
+  for (const [width, height] of [[1400, 900], [1024, 700], [700, 600]]) {
+    await page.setViewportSize({ width, height });
+    for (const dark of [false, true]) {
+      await page.emulateMedia({ colorScheme: dark ? 'dark' : 'light' });
+      await picture(page, `world-${width}-${dark ? 'dark' : 'light'}`);
+    }
+    const form = await world.getByRole('group', { name: `Properties of ${name}`, exact: true }).boundingBox();
+    assert.ok(form && form.y >= 0 && form.y + 60 <= height, `the form at ${width} x ${height}: ${JSON.stringify(form)}`);
+  }
+  await accessible(page, 'dark');
+  await page.emulateMedia({ colorScheme: 'light' });
+  await page.setViewportSize({ width: 1400, height: 900 });
 
   step('a patch is added and taken away by keys; undo takes the last step back');
   await world.getByRole('button', { name: 'patch', exact: true }).focus();

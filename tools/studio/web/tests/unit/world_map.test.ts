@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { corners, degrees, drawn, ends, reach, viewOf, zoomed } from '../../src/edit/world_map';
+import { corners, degrees, drawn, ends, grid, reach, resized, sizesOf, snapped, turn, viewOf, zoomed } from '../../src/edit/world_map';
 import type { WorldItem, WorldPart } from '../../src/protocol/messages';
 
 const part = (x: number, y: number, size: number[]): WorldPart => ({ x, y, yaw: 0, size, color: '#ff0000' });
@@ -21,6 +21,21 @@ describe('the map of a world', () => {
     const v = zoomed({ x: 0, y: 0, width: 10, height: 10 }, 0.5, 2, 4);
     expect(v).toEqual({ x: 1, y: 2, width: 5, height: 5 });
     expect((2 - v.x) / v.width).toBeCloseTo(0.2);
+  });
+  it('snaps to a grid and to angles', () => {
+    expect(snapped(1.234, grid)).toBe(1.2);
+    expect(snapped(1, turn)).toBeCloseTo(Math.PI / 3);
+  });
+  it('resizes what has one part, along its own sides, and its middle stays', () => {
+    const property = (name: string) => ({ name, label: name, kind: 'number', value: 1, low: null, high: null, choices: [] }) as WorldItem['properties'][number];
+    const wall = { ...item('wall', 1, 2, [part(0, 0, [2, 0.2])]), yaw: Math.PI / 2, properties: [property('width'), property('depth')] };
+    expect(sizesOf(wall)).toEqual(['width', 'depth']);
+    expect(sizesOf({ ...wall, parts: [...wall.parts, part(1, 0, [1])] })).toEqual([]);
+    expect(resized(wall, { x: 1, y: 3.1 }, { x: 1.04, y: 3.62 }, [true, false], 0.1)).toEqual([3, 0.2]);
+    expect(resized(wall, { x: 0.8, y: 3.1 }, { x: 0.6, y: 2 }, [true, true], 0.1)).toEqual([0.1, 0.6]);
+    const pillar = { ...item('pillar', 0, 0, [part(0, 0, [0.2])]), properties: [property('radius')] };
+    expect(sizesOf(pillar)).toEqual(['radius']);
+    expect(resized(pillar, { x: 0.3, y: 0 }, { x: 0.3, y: 0.52 }, [true, false], 0.1)).toEqual([0.5]);
   });
   it('draws boxes as rectangles, and others as circles', () => {
     expect(corners(part(1, 1, [2, 1]))).toBe('-1,-0.5 1,-0.5 1,0.5 -1,0.5');
