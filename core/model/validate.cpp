@@ -150,7 +150,7 @@ class Validator {
                     out_.warning(
                         g.at,
                         fmt::format("there is already a group '{}', on line {}", path, it->second->at.line),
-                        fmt::format("rename one of them; options tell them apart by id: '{}#{}'", path,
+                        fmt::format("rename one of them, or name this one in options as '{}#{}'", path,
                                     g.id));
             }
     }

@@ -1,6 +1,10 @@
 // The types of a registry as JSON.
+#include <cctype>
 #include <cmath>
+#include <functional>
+#include <map>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/equations/declared_types.h"
@@ -24,6 +28,29 @@ json named(const Type& type) {
 
 json finite_or_null(double number) { return std::isfinite(number) ? json(number) : json(nullptr); }
 
+/// Plain words for attributes of files, for a form. Others are plain themselves.
+std::string plain_name(const std::string& attribute) {
+    static const std::map<std::string, std::string, std::less<>> words = {
+        {"direction", "Around"},
+        {"initialization_probability", "Probability of a synapse"},
+        {"innerwidth", "Width of the hole"},
+        {"innerheight", "Height of the hole"},
+        {"outerwidth", "Width"},
+        {"outerheight", "Height"},
+        {"count", "Cells per pair"},
+        {"min", "At distance 0"},
+        {"max", "At the largest distance"},
+        {"sigma", "Width of the Gaussian"}};
+    const auto found = words.find(attribute);
+    std::string out = found == words.end() ? attribute : found->second;
+    out.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(out.front())));
+    return out;
+}
+
+std::string plain_choice(const std::string& choice) {
+    return choice == "RF" ? "the source cell" : choice == "PF" ? "the target cell" : choice;
+}
+
 /// The elements that may stand in an element of system files, with their attributes as parameters.
 json forms_in(const char* element) {
     json out = json::array();
@@ -35,7 +62,7 @@ json forms_in(const char* element) {
             json value = v.otherwise;
             if (number) value = v.otherwise.empty() ? std::max(v.low, 0.0) : std::stod(v.otherwise);
             json row = {{"name", a.name},
-                        {"label", a.name},
+                        {"label", plain_name(a.name)},
                         {"doc", v.doc},
                         {"unit", v.unit},
                         {"kind", v.kind == xml::ValueKind::whole ? "integer"
@@ -45,11 +72,12 @@ json forms_in(const char* element) {
                         {"low", finite_or_null(v.low)},
                         {"high", finite_or_null(v.high)}};
             if (!v.choices.empty()) row["options"] = v.choices;
+            for (const auto& choice : v.choices) row["labels"].push_back(plain_choice(choice));
             parameters.push_back(std::move(row));
         }
         out.push_back({{"type", child.name},
-                       {"label", child.rule->name},
-                       {"doc", child.rule->doc},
+                       {"label", plain_name(child.rule->doc)},
+                       {"doc", fmt::format("<{}> in the file", child.name)},
                        {"parameters", std::move(parameters)}});
     }
     return out;

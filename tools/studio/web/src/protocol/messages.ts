@@ -305,6 +305,8 @@ export interface FormParameter {
   low?: number | null;
   high?: number | null;
   options?: string[];
+  /** The options in plain words. */
+  labels?: string[];
   at_start?: boolean;
   path?: boolean;
   value?: ParameterValue;

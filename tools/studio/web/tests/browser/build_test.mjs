@@ -160,11 +160,11 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await named('Bug/Light → Reactive Layer/US', 'Light to US');
   await advanced('center');
   await inspector.getByText('Spread and delay').click();
-  await field('Arborization').selectOption('ArbRect');
-  await write(field('width'), 10);
+  await field('Spread').selectOption('ArbRect');
+  await write(field('Width'), 10);
   await field('Attenuation').selectOption('FunGaussian');
-  await write(field('max'), 1);
-  await write(field('sigma'), 5);
+  await write(field('At the largest distance'), 1);
+  await write(field('Width of the Gaussian'), 5);
 
   step('the others by the dialog, without the mouse');
   const dialog = async (from, to, name) => {

@@ -148,8 +148,8 @@ export default async function({ site, start, open, faults, step }) {
 
   step('names in forms break between their words only');
   await find(page, 'Light to US');
-  await inspector(page).getByLabel('Arborization', { exact: true }).selectOption('ArbRect');
-  await inspector(page).getByLabel('initialization_probability').waitFor();
+  await inspector(page).getByLabel('Spread', { exact: true }).selectOption('ArbRect');
+  await inspector(page).getByLabel('Probability of a synapse').waitFor();
   const broken = await inspector(page).evaluate((form) =>
     [...form.querySelectorAll('label, h2, h3')].flatMap((label) => {
       const texts = document.createTreeWalker(label, NodeFilter.SHOW_TEXT), found = [];
