@@ -40,7 +40,7 @@ bool left_out(std::string_view message) {
     const auto name = command.value("command", json());
     for (const char* other :
          {"sample", "layout_write", "panel_write", "parameters_write", "patterns_write", "save", "world_save",
-          "export", "backup", "open", "world_open", "step", "run", "run_trials", "settings"})
+          "export", "backup", "open", "world_open", "step", "run", "run_until", "figure", "settings"})
         if (name == other) return true;
     return false;
 }

@@ -1,10 +1,12 @@
 #include "tools/api/edit/part_operations.h"
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <string_view>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "core/base/text_file.h"
 #include "core/model/build.h"
@@ -71,6 +73,11 @@ std::string first_sentence(const std::string& text) {
     return out.empty() ? out : out + '.';
 }
 
+std::string capitalized(std::string text) {
+    if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
+    return text;
+}
+
 }  // namespace
 
 std::string use_part(model::System& system, const std::string& file, const std::string& name,
@@ -130,32 +137,31 @@ std::vector<PartSummary> parts_in(const std::string& folder) {
     return out;
 }
 
-std::vector<TemplateSummary> templates_in(const std::string& folder) {
-    std::vector<TemplateSummary> out;
-    std::error_code failed;
-    for (const auto& entry : fs::directory_iterator(folder, failed)) {
-        std::error_code ignored;
-        if (entry.path().extension() != ".iqr" || !entry.is_regular_file(ignored)) continue;
-        const std::string path = entry.path().string(), text = read_file(path);
+std::vector<ShippedSystem> shipped_systems(const std::string& folder) {
+    std::vector<ShippedSystem> out;
+    const fs::path root = folder;
+    std::error_code none;
+    if (!fs::exists(root / "examples.json", none)) return out;
+    for (const auto& entry : nlohmann::json::parse(read_file((root / "examples.json").string()))) {
+        ShippedSystem shipped{entry.at("file"), {}, {}, entry.at("kind"), {}};
+        const std::string path = (root / shipped.file).string();
+        if (!fs::exists(path, none)) continue;
+        const std::string text = read_file(path);
         Diagnostics diagnostics;
         const auto system = xml::parse_system(path, text, diagnostics);
-        const auto needs_file = [](const model::Connection& c) {
-            const auto* weights = std::get_if<model::Weights>(&c.pattern);
-            return weights && !weights->file.empty();
-        };
-        if (!system || diagnostics.failed() ||
-            std::ranges::any_of(system->processes, &model::Process::linked) ||
-            std::ranges::any_of(system->connections, needs_file))
-            continue;
-        TemplateSummary summary{path, std::string(model::trim(system->name)), {}, 0};
-        if (const auto begin = text.find("<!--"), end = text.find("-->"); end != text.npos && begin < end)
-            summary.about = first_sentence(text.substr(begin + 4, end - begin - 4));
-        summary.robots = std::size_t(std::ranges::count_if(system->processes, [](const model::Process& p) {
-            return p.module && p.module->type == "moduleGazeboBug";
-        }));
-        out.push_back(std::move(summary));
+        if (!system || diagnostics.failed()) continue;
+        shipped.name = model::trim(system->name);
+        if (const auto begin = text.find("<!--"), end = text.find("-->"); end != text.npos && begin < end) {
+            std::string_view comment = model::trim(std::string_view(text).substr(begin + 4, end - begin - 4));
+            if (const auto colon = comment.find(':');
+                colon < 40 && comment.substr(0, colon).find(shipped.name) != comment.npos)
+                comment.remove_prefix(colon + 1);  // "Oscillator: a cell that ..."
+            shipped.about = capitalized(first_sentence(std::string(comment)));
+        }
+        if (const auto world = entry.find("world"); world != entry.end())
+            shipped.world = (root / "worlds" / (world->get<std::string>() + ".world")).string();
+        out.push_back(std::move(shipped));
     }
-    std::ranges::sort(out, {}, &TemplateSummary::name);
     return out;
 }
 

@@ -29,13 +29,16 @@ struct PartSummary {
 /// The parts in a folder, by their names. Files that cannot be read are left out.
 std::vector<PartSummary> parts_in(const std::string& folder);
 
-/// A system from which a new one may begin.
-struct TemplateSummary {
-    std::string file, name;
-    std::string about;       ///< the first sentence of the comment above the system
-    std::size_t robots = 0;  ///< processes with a module for a robot
+/// A system that comes with Forage.
+struct ShippedSystem {
+    std::string file;  ///< relative to the folder
+    std::string name;
+    std::string about;  ///< the first sentence of the comment above the system
+    std::string kind;   ///< template, recipe, example or model; a new system may begin with the first two
+    std::string world;  ///< the path of the one for it; empty for none
 };
-/// The systems in a folder that need no other file, by their names.
-std::vector<TemplateSummary> templates_in(const std::string& folder);
+/// The systems that examples.json in the folder of what comes with Forage lists, in its order. Those that
+/// cannot be read are left out.
+std::vector<ShippedSystem> shipped_systems(const std::string& folder);
 
 }  // namespace forage::editing

@@ -204,6 +204,15 @@ std::string opened_in_python(const Opened& o) {
 
 }  // namespace
 
+Equivalent of_run(const std::optional<std::uint64_t>& trials, const std::string& condition) {
+    const auto count = trials ? fmt::format("trials={}", *trials) : "";
+    std::string shell = trials ? fmt::format("--trials {}", *trials) : "";
+    if (condition.empty()) return {shell, fmt::format("run.run({})", count)};
+    if (trials) shell += ' ';
+    return {shell + "--until " + shell_word(condition),
+            fmt::format("run.run_until({}{}{})", literal(condition), trials ? ", " : "", count)};
+}
+
 Equivalent of_restart(const Opened& o) { return {fmt::format("--seed {}", o.seed), opened_in_python(o)}; }
 
 Equivalent of_world(const Opened& o) {

@@ -60,6 +60,8 @@ struct Opened {
 /// It begins with another seed, or in another world; the world is empty for none.
 Equivalent of_restart(const Opened& opened);
 Equivalent of_world(const Opened& opened);
+/// A run until so many trials have ended or a condition holds; it is empty for none.
+Equivalent of_run(const std::optional<std::uint64_t>& trials, const std::string& condition);
 /// A recording into a file, of every n-th cycle from the first to the last one.
 struct Sampled {
     std::vector<std::string> sources;

@@ -13,6 +13,7 @@
 #include "core/observe/recorder.h"
 #include "core/run/run.h"
 #include "core/run/run_spec.h"
+#include "core/run/stop_condition.h"
 #include "tools/studio/server/equivalents.h"
 #include "tools/studio/server/history.h"
 #include "tools/studio/server/pace.h"
@@ -65,7 +66,12 @@ struct LiveRun {
     std::string failed;  ///< why a cycle could not be computed
     std::uint32_t epoch = 1;
     std::uint64_t version = 0;
-    std::optional<std::size_t> pause_after_trials;  ///< the number of finished trials of the first robot
+    /// What pauses the run.
+    struct PauseCondition {
+        StopCondition condition;
+        StopOrigin since;
+    };
+    std::optional<PauseCondition> pause_when;
     std::optional<Sampler> sampler;
     std::optional<SamplerRequest> waiting_sampler;  ///< that begins with the run
     bool sampled = false;                           ///< whether it has begun in this run

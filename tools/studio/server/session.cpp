@@ -99,7 +99,7 @@ void Session::open(RunInput input) {
     live.run = std::move(run);
     live.touches = touches;
     pages.rebind(*live.run);  // at once: what follows may fail, and streams must not read the run before
-    live.failed.clear(), live.pace.running = live.sampled = false, live.pause_after_trials.reset();
+    live.failed.clear(), live.pace.running = live.sampled = false, live.pause_when.reset();
     live.history.begin(*live.run);
     rewound();
 }
@@ -298,8 +298,8 @@ void Session::cycle() {
     ++live.version;
     live.history.after_cycle(*live.run);
     if (live.reference) step_reference();
-    if (live.pause_after_trials && live.run->environment()->trials(0).size() >= *live.pause_after_trials)
-        live.pause_after_trials.reset(), live.pace.running = false, pages.status_due = true;
+    if (live.pause_when && live.pause_when->condition.reached(*live.run, live.pause_when->since))
+        live.pause_when.reset(), live.pace.running = false, pages.status_due = true;
     const std::uint64_t done = live.run->cycle() - 1;
     if (done % timed_cycle == 0) {
         rows_time_ = 0;

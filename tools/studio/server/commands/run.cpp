@@ -20,25 +20,32 @@ void check_running(const Session& s) {
 json start_run(Session& s, const Request&) {
     check_running(s);
     begin_waiting_sampler(s);
-    s.live.pace.running = s.pages.status_due = true, s.live.pause_after_trials.reset();
+    s.live.pace.running = s.pages.status_due = true, s.live.pause_when.reset();
     s.live.pace.start();
     return json::object();
 }
 
-json run_trials(Session& s, const Request& r) {
-    if (!s.run().has_trials())
-        throw InputError("the world has no trials", "open a world whose robot has trials");
+json run_until(Session& s, const Request& r) {
+    RunLength length;
+    length.in_code = true, length.until = {r.text("condition")};
+    if (r.has("trials")) length.trials = r.whole("trials");
+    if (!length.trials && length.until.empty())
+        throw InputError("what should the run wait for?", "a number of trials, or a condition");
+    Diagnostics diagnostics;
+    auto condition = StopCondition::make(length, s.run(), diagnostics);
+    throw_errors(diagnostics);
     start_run(s, r);
-    const auto trials = r.whole("trials");
-    s.live.pause_after_trials = s.run().environment()->trials(0).size() + trials;
-    s.log({.command = "run_trials",
-           .title = fmt::format("run {} trials", trials),
-           .scripts = {fmt::format("--trials {}", trials), fmt::format("run.run(trials={})", trials)}});
+    s.live.pause_when = {std::move(condition), StopCondition::begin(s.run())};
+    std::string title = "run";
+    if (length.trials) title += fmt::format(" {} trials", *length.trials);
+    if (!length.until.empty())
+        title += fmt::format("{} until {}", length.trials ? " or" : "", length.until.text);
+    s.log({.command = "run_until", .title = title, .scripts = of_run(length.trials, length.until.text)});
     return json::object();
 }
 
 json pause_run(Session& s, const Request&) {
-    s.live.pause_after_trials.reset();
+    s.live.pause_when.reset();
     s.live.pace.running = false, s.pages.status_due = true;
     return json::object();
 }
@@ -133,25 +140,18 @@ json list_shipped(Session& s, const Request&) {
     namespace fs = std::filesystem;
     std::vector<std::string> worlds;
     std::error_code failed;
-    if (!s.shipped().empty())
-        for (const auto& entry : fs::directory_iterator(fs::path(s.shipped()) / "worlds", failed))
-            if (entry.path().extension() == ".world") worlds.push_back(entry.path().string());
+    json systems = json::array();
+    if (s.shipped().empty()) return {{"worlds", worlds}, {"systems", std::move(systems)}};
+    for (const auto& entry : fs::directory_iterator(fs::path(s.shipped()) / "worlds", failed))
+        if (entry.path().extension() == ".world") worlds.push_back(entry.path().string());
     std::ranges::sort(worlds);
-    json templates = json::array();
-    for (const bool recipe : {false, true}) {
-        const auto folder = fs::path(s.shipped()) / (recipe ? "cookbook" : "templates");
-        for (const auto& t : editing::templates_in(folder.string())) {
-            // A recipe with a robot was made for the arena with a light.
-            const char* arena = t.robots > 1 ? "two_bugs" : recipe ? "basic_arena" : "open_arena";
-            const auto world = fs::path(s.shipped()) / "worlds" / fmt::format("{}.world", arena);
-            templates.push_back({{"file", fs::path(t.file).lexically_relative(s.shipped()).string()},
-                                 {"name", t.name},
-                                 {"about", t.about},
-                                 {"recipe", recipe},
-                                 {"world", t.robots ? world.string() : ""}});
-        }
-    }
-    return {{"worlds", worlds}, {"templates", std::move(templates)}};
+    for (const auto& system : editing::shipped_systems(s.shipped()))
+        systems.push_back({{"file", system.file},
+                           {"name", system.name},
+                           {"about", system.about},
+                           {"kind", system.kind},
+                           {"world", system.world}});
+    return {{"worlds", worlds}, {"systems", std::move(systems)}};
 }
 
 json quit_program(Session& s, const Request&) {
@@ -169,10 +169,13 @@ Equivalent begun_again(const Session& s, Equivalent (*form)(const Opened&), cons
 std::vector<Command> run_commands() {
     return {
         {.name = "run", .doc = "Starts the run.", .apply = start_run},
-        {.name = "run_trials",
-         .doc = "Starts the run, and pauses it when the first robot has finished so many more trials.",
-         .arguments = {optional("trials", whole(1, 1'000'000), 1)},
-         .apply = run_trials},
+        {.name = "run_until",
+         .doc =
+             "Starts the run, and pauses it when the first robot has finished so many more trials, or when "
+             "a condition holds.",
+         .arguments = {optional("trials", whole(1, 1'000'000)),
+                       optional("condition", text(), "", "as that of `forage run --until`; empty for none")},
+         .apply = run_until},
         {.name = "pause", .doc = "Pauses the run.", .apply = pause_run},
         {.name = "step",
          .doc = "Pauses, then computes cycles.",
@@ -210,8 +213,8 @@ std::vector<Command> run_commands() {
          .changes_run = true,
          .apply = open_world},
         {.name = "shipped",
-         .doc = "Lists the worlds that come with Forage, and the systems from which a new one may begin.",
-         .result = "{ worlds: string[]; templates: Template[] }",
+         .doc = "Lists the worlds and the systems that come with Forage.",
+         .result = "{ worlds: string[]; systems: ShippedSystem[] }",
          .apply = list_shipped},
         {.name = "quit", .doc = "Ends the program.", .apply = quit_program},
     };

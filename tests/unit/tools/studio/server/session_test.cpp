@@ -6,6 +6,7 @@
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "bug_interface/simulation/world.h"
 #include "core/base/output_files.h"
@@ -186,10 +187,55 @@ TEST_CASE("a run is paced by the clock, and does not catch up a long pause") {
 TEST_CASE("a run of some trials pauses at the end of the last of them") {
     Fixture f;
     f.result({{"command", "speed"}, {"mode", "free"}});
-    f.result({{"command", "run_trials"}, {"trials", 2}});
+    f.result({{"command", "run_until"}, {"trials", 2}});
     for (double now = 100; f.session.running() && now < 1e5; ++now) f.session.work(now);
     CHECK(f.session.run().environment()->trials(0).size() == 2);
     CHECK_FALSE(f.session.running());
+}
+
+TEST_CASE("a run pauses when a condition holds, as that of the command line does") {
+    Fixture f;
+    f.session.connect(1);
+    f.result({{"command", "speed"}, {"mode", "free"}});
+    f.result({{"command", "run_until"}, {"trials", 3}, {"condition", "trial 2 and cycle > 40"}});
+    const auto go = [&] {
+        for (double now = 100; f.session.running() && now < 1e5; ++now) f.session.work(now);
+        return f.session.run().cycle();
+    };
+    auto run = f.session.make_run(Fixture::input()).first;
+    run->until({.trials = 3, .until = {"trial 2 and cycle > 40"}, .in_code = true});
+    CHECK(go() == run->cycle());
+    const auto logged = std::ranges::find(f.messages[1], "action", [](const json& m) { return m["type"]; });
+    REQUIRE(logged != f.messages[1].end());
+    CHECK((*logged)["shell"] == "--trials 3 --until 'trial 2 and cycle > 40'");
+    CHECK((*logged)["python"] == "run.run_until(\"trial 2 and cycle > 40\", trials=3)");
+    for (const json& wrong :
+         {json{{"command", "run_until"}}, json{{"command", "run_until"}, {"condition", "trail 2"}}})
+        CHECK(f.ask(wrong)["ok"] == false);
+    CHECK_FALSE(f.session.running());
+}
+
+TEST_CASE("every system that comes with Forage to begin with has a sentence, and a world if it has a robot") {
+    const std::string systems = FORAGE_SOURCE_DIR "/systems";
+    Session session(
+        Fixture::input(), [](int, bool, const std::string&) {}, {}, systems);
+    const json reply = session.execute(-1, {{"command", "shipped"}});
+    test::check_reply({{"command", "shipped"}}, reply);
+    std::set<std::string> files;
+    for (const json& system : reply["result"]["systems"]) {
+        INFO(system.dump());
+        const auto file = system["file"].get<std::string>();
+        files.insert(file);
+        CHECK(system["about"].get<std::string>().size() > 10);
+        const bool robot = read_file(systems + "/" + file).find("moduleGazeboBug") != std::string::npos;
+        CHECK((system["world"] != "") == robot);
+        if (robot) CHECK(std::filesystem::exists(system["world"].get<std::string>()));
+    }
+    CHECK(files.size() == json::parse(read_file(systems + "/examples.json")).size());
+    for (const char* folder : {"cookbook", "templates", "models"})
+        for (const auto& entry : std::filesystem::directory_iterator(systems + "/" + folder))
+            if (entry.path().extension() == ".iqr")
+                CHECK(files.contains(folder + ("/" + entry.path().filename().string())));
 }
 
 TEST_CASE("a page hears of the world before it hears of the system that is opened in it") {

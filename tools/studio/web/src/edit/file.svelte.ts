@@ -1,5 +1,5 @@
 // New, open, save and the others: what they do, and which dialog is open.
-import type { FilesResult, RecentFile, Template } from '../protocol/messages';
+import type { FilesResult, RecentFile, ShippedSystem } from '../protocol/messages';
 import { actions } from '../stores/actions.svelte';
 import { dock } from '../stores/dock.svelte';
 import { model } from '../stores/model.svelte';
@@ -93,7 +93,7 @@ class FileDialog {
   /** Null for the task of a panel. */
   action = $state<FileAction | null>(null);
   /** What a new system may begin with, and the one that is chosen; empty for none. */
-  templates = $state.raw<Template[]>([]);
+  templates = $state.raw<ShippedSystem[]>([]);
   template = $state('');
   /** Worlds that come with Forage. */
   shipped = $state.raw<string[]>([]);
@@ -111,7 +111,7 @@ class FileDialog {
   open(action: FileAction, process: string | null = null): void {
     this.world = model.world?.file ?? '';
     this.choose(tasks[action](process ?? ''), action);
-    if (action === 'open' || action === 'new' || action === 'world') void request('shipped').then((r) => ((this.shipped = r.worlds), (this.templates = r.templates)), () => {});
+    if (action === 'open' || action === 'new' || action === 'world') void request('shipped').then((r) => ((this.shipped = r.worlds), (this.templates = r.systems.filter((s) => s.kind === 'template' || s.kind === 'recipe'))), () => {});
     if (action === 'open') void request('recent').then((r) => (this.recent = r.files), () => {});
   }
   /** Opens the dialog for a file of a panel. */

@@ -7,6 +7,7 @@ import { model } from '../stores/model.svelte';
 import { selection } from '../stores/selection.svelte';
 import { openText } from '../xml/place.svelte';
 import { editing } from './document.svelte';
+import { examples } from './examples.svelte';
 import { backup, fileDialog, quit, save, saveWorld } from './file.svelte';
 import type { Entries } from './menu.svelte';
 import { partEntries, properties } from './menus';
@@ -18,6 +19,7 @@ export function systemMenu(): Entries {
   return [
     { label: 'New…', name: 'New system', keys: 'Alt N', act: () => fileDialog.open('new') },
     { label: 'Open…', name: 'Open a system', keys: 'Ctrl O', act: () => fileDialog.open('open') },
+    { label: 'Open an example…', name: 'Open an example', act: () => examples.open() },
     { label: 'Save', keys: 'Ctrl S', disabled: !editing.dirty && editing.file !== '' && !editing.backupOf, act: save },
     { label: 'Save as…', keys: 'Ctrl Shift S', act: () => fileDialog.open('save as') },
     { label: 'Save a backup', keys: 'Ctrl B', disabled: !editing.file || editing.shipped, act: backup },

@@ -1,5 +1,5 @@
 // The commands of the server. Made by tests/unit/tools/studio/server/protocol_test.cpp from tools/studio/server/commands.
-import type { DocumentMessage, Driven, EditItem, FilesResult, ItemParameters, LayoutContent, PanelRow, PartSummary, PreviewResult, Problem, RecentFile, SynapseTable, Template, Trial, TypesResult, Vocabulary, WorldDocument, WorldKind } from './messages';
+import type { DocumentMessage, Driven, EditItem, FilesResult, ItemParameters, LayoutContent, PanelRow, PartSummary, PreviewResult, Problem, RecentFile, ShippedSystem, SynapseTable, Trial, TypesResult, Vocabulary, WorldDocument, WorldKind } from './messages';
 
 export interface Commands {
   /** Starts the run. */
@@ -7,9 +7,9 @@ export interface Commands {
     arguments: {};
     result: {};
   };
-  /** Starts the run, and pauses it when the first robot has finished so many more trials. */
-  run_trials: {
-    arguments: { trials?: number | null };
+  /** Starts the run, and pauses it when the first robot has finished so many more trials, or when a condition holds. */
+  run_until: {
+    arguments: { trials?: number | null; condition?: string | null };
     result: {};
   };
   /** Pauses the run. */
@@ -47,10 +47,10 @@ export interface Commands {
     arguments: { world: string; generation?: number | null };
     result: { world: string };
   };
-  /** Lists the worlds that come with Forage, and the systems from which a new one may begin. */
+  /** Lists the worlds and the systems that come with Forage. */
   shipped: {
     arguments: {};
-    result: { worlds: string[]; templates: Template[] };
+    result: { worlds: string[]; systems: ShippedSystem[] };
   };
   /** Ends the program. */
   quit: {

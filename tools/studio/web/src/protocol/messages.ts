@@ -322,8 +322,8 @@ export type TypesResult = { neurons: TypeInfo[]; synapses: TypeInfo[]; modules: 
 export type PreviewResult = { synapses: number; pairs: number; source: number[]; target: number[] };
 /** A backup of a system; `time` is local. */
 export type BackupFile = { file: string; system: string; time: string };
-/** A system from which a new one may begin: one of the templates, or a recipe of the cookbook. `world` is the one for it, empty for none. */
-export type Template = { file: string; name: string; about: string; recipe: boolean; world: string };
+/** A system that comes with Forage, with a sentence about it. A new system may begin with a template or a recipe. `world` is the one for it, empty for none. */
+export type ShippedSystem = { file: string; name: string; about: string; kind: 'template' | 'recipe' | 'example' | 'model'; world: string };
 /** A system of the last ones; its world is empty for none. */
 export type RecentFile = { file: string; world: string; seed: number };
 /** `backups`: the latest of a system first. */

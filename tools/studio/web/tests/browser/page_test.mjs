@@ -133,6 +133,30 @@ export default async function({ start, open, faults, step }) {
   await page.getByRole('group', { name: 'Run' }).getByRole('button', { name: 'Run', exact: true }).waitFor(); // it is paused
   assert.equal(await trials.locator('dd i').count(), 3);
   await picture(page, 'trials');
+
+  step('it runs until a condition, and pauses; a mistake in it is said, and a world without trials takes it, too');
+  const condition = trials.getByLabel('until');
+  await trials.getByLabel('Number of trials').fill('1000');
+  await condition.fill('trail 5');
+  await trials.getByRole('button', { name: 'Run', exact: true }).click();
+  await page.getByRole('alert').filter({ hasText: 'trail' }).first().waitFor();
+  await condition.fill('trial 5');
+  await trials.getByRole('button', { name: 'Run', exact: true }).click();
+  await page.getByRole('alert').filter({ hasText: 'trail' }).first().waitFor({ state: 'detached' });
+  await trials.getByText(/^\d of 4 reached the target/).waitFor();
+  await page.getByRole('group', { name: 'Run' }).getByRole('button', { name: 'Run', exact: true }).waitFor();
+  await find(page, 'Log');
+  await page.getByText("--trials 1000 --until 'trial 5'").first().waitFor();
+
+  step('an example is chosen by its sentence, and opens in its world');
+  await find(page, 'Open an example');
+  const examples = page.getByRole('dialog', { name: 'Open an example' });
+  await examples.getByRole('button', { name: /^Braitenberg vehicle.*drives to the light\..*in basic arena/ }).waitFor();
+  await accessible(page, 'the examples');
+  await picture(page, 'examples');
+  await examples.getByRole('button', { name: /^Reactive foraging/ }).click();
+  await until(page, 'the example', () => document.title.includes('Reactive foraging') && document.title.includes('basic_arena'));
+
   step('the server ends: the page says so; faults in between: none');
   assert.deepEqual(faults, []);
   studio.child.removeAllListeners('exit');
