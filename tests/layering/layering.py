@@ -105,6 +105,7 @@ ALLOWED['tools/studio/server'] = {
     'tools/api/open',
     'tools/api/describe',
     'tools/api/edit',
+    'tools/api/experiment',
 }
 ALLOWED['tools/studio/wasm'] = {'core/run', 'tools/studio/server'}
 ALLOWED['tools'].add('tools/studio/server')

@@ -48,10 +48,13 @@ export default async function({ forage, folder, start, open, step }) {
   await dialog.waitFor({ state: 'hidden' });
 
   step('a figure over time begins where its panel does, or at another cycle; by keyboard');
-  await find(page, 'Bug/Light raster');
+  await page.getByRole('navigation').getByText('Light', { exact: true }).click();
+  await page.getByRole('region', { name: 'Inspector' }).getByRole('button', { name: 'Raster' }).click();
+  await plot('Raster plot of Bug/Light').waitFor();
   const now = await cycle();
   await find(page, 'Panel: export figure…');
   await drawn();
+  await dialog.getByLabel('Format').selectOption('pdf');
   const from = dialog.getByLabel('First cycle');
   assert.equal(await from.inputValue(), String(Math.max(0, now - 400)));
   await from.fill('100');

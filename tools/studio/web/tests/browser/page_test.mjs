@@ -155,6 +155,7 @@ export default async function({ start, open, faults, step }) {
   await accessible(page, 'the examples');
   await picture(page, 'examples');
   await examples.getByRole('button', { name: /^Reactive foraging/ }).click();
+  await page.getByRole('dialog', { name: 'Changes' }).getByRole('button', { name: 'Discard them' }).click();
   await until(page, 'the example', () => document.title.includes('Reactive foraging') && document.title.includes('basic_arena'));
 
   step('the server ends: the page says so; faults in between: none');
