@@ -867,6 +867,8 @@ class Others(Cli):
         self.assertEqual(sorted(p.name for p in self.here.iterdir()), ["figure.pdf", "figure.png", "figure.svg"])
         self.forage("plot", SYSTEM, "diagram", "--width", "600px")
         self.assertEqual(int.from_bytes((self.here / "diagram.png").read_bytes()[16:20], "big"), 600)
+        movie = self.forage("plot", SYSTEM, "movie:Bug/Light", "--width", "600px", status=2)
+        self.assertIn("a size of its own", movie.stderr)
         self.assertIn("3 plots do not fit into 1 x 2 panels", self.forage(*figure[:-1], "1x2", status=2).stderr)
         self.assertIn("write ROWSxCOLUMNS", self.forage(*figure[:-1], "2by2", status=2).stderr)
 

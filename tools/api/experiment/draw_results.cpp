@@ -268,6 +268,9 @@ std::vector<std::string> draw(Results& results, const std::vector<std::string>& 
     for (const auto& text : plots.empty() ? usual_plots(results) : plots)
         if (auto spec = plot::parse_plot(text, "forage plot", diagnostics)) {
             if (spec->of_results()) spec->part = part_of(results);
+            if (width && spec->kind == Kind::movie)
+                diagnostics.error({}, fmt::format("'{}' is an animation, which has a size of its own", text),
+                                  "leave out --width");
             specs.push_back(std::move(*spec));
         }
     if (specs.empty() && !diagnostics.failed())

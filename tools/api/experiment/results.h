@@ -44,8 +44,8 @@ std::vector<plot::Path> read_paths(const std::string& directory);
 /// Draws `plots` ("time:Process/Group", "trajectory"), or the usual pictures of these results when there are
 /// none, into `directory` (empty: beside the results, or the working directory for a system). Reports
 /// mistakes in `plots`. Of an experiment, only the runs that `where` keeps are drawn, see keep_runs().
-/// With a `layout`, they are the panels of one file "figure". Without a `width`, pictures keep their sizes;
-/// an animation always does. Returns the paths of the written files.
+/// With a `layout`, they are the panels of one file "figure". Without a `width`, pictures keep their sizes.
+/// Returns the paths of the written files.
 std::vector<std::string> draw(Results& results, const std::vector<std::string>& plots, std::string directory,
                               plot::Format format, Diagnostics& diagnostics,
                               const std::vector<std::string>& where = {},

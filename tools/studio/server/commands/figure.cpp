@@ -1,5 +1,6 @@
 // Figures of the run, as 'forage plot' makes them from its results.
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <iterator>
 #include <memory>

@@ -135,7 +135,7 @@ export default async function({ start, open, faults, step }) {
   await picture(page, 'trials');
 
   step('it runs until a condition, and pauses; a mistake in it is said, and a world without trials takes it, too');
-  const condition = trials.getByLabel('until');
+  const condition = trials.getByLabel('or when');
   await trials.getByLabel('Number of trials').fill('1000');
   await condition.fill('trail 5');
   await trials.getByRole('button', { name: 'Run', exact: true }).click();
