@@ -2,11 +2,12 @@
 import type { CanvasComment, Connection, ConnectionLine, Group, Icon, PartPort, Process, SystemMessage } from '../protocol/messages';
 import { anchor, middleOfLongest, nearestPart, type Box, type Point } from './line';
 import { beside, firstMet, offsetOf } from './parallel_lines';
+import { facingSide, route, shifted, type End, type Side } from './routes';
 
 /** What a unit of the file is on a page: an icon of 50 x 50 is a box of 100 x 100. */
 export const scale = 2;
 export const boxSize = 100;
-const phantomSize = { width: 96, height: 30 };
+const phantomSize = { width: 112, height: 38 };
 
 export interface PageBox {
   id: string;
@@ -25,7 +26,7 @@ export interface PageLine {
   connection: Connection;
   source: string;
   target: string;
-  /** The connections that it stands for. */
+  /** The connections that it stands for: those of a kind between the same boxes are a bundle. */
   members: Connection[];
   /** The ports at which it leaves and meets boxes of parts; empty at other boxes. */
   ports: [string, string];
@@ -33,6 +34,10 @@ export interface PageLine {
   drawn: boolean;
   /** Its number among the lines that would lie on each other. */
   lane: number;
+  /** How far it stands beside the line of its bundle. */
+  aside: number;
+  /** Its way around the boxes, while its own boxes are at these places. */
+  route?: { points: Point[]; from: Box; to: Box };
   /** The vertices of the connection that belong to this page, and where the file keeps them. */
   vertices: Point[];
   list: VertexList;
@@ -69,7 +74,7 @@ function linksOf(system: SystemMessage, process: Process | null): { connection: 
   });
 }
 
-const rowOfPorts = 14;
+const rowOfPorts = 16;
 /** The ports of a box that stands for a use of a part; none for other boxes. */
 const portsOf = ({ item, phantom }: PageBox): PartPort[] => (!phantom && 'ports' in item ? item.ports : []);
 /** How far below the upper edge of a box of this height its ports are, one after the other. */
@@ -108,6 +113,8 @@ export async function pageOf(system: SystemMessage, process: Process | null): Pr
     placed: item.icon !== null,
     box: item.icon ? toBox(item.icon) : { x: 0, y: 0, width: boxSize, height: boxSize },
   }));
+  // All ports of a part can be read.
+  for (const b of boxes) b.box.height = Math.max(b.box.height, portsOf(b).length && 44 + rowOfPorts * portsOf(b).length);
   await placeOthers(boxes, links);
   if (process) boxes.push(...phantoms(system, process, boxes, links));
   const lines = linesOf(process, boxes, links);
@@ -128,11 +135,31 @@ async function placeOthers(boxes: PageBox[], links: { source: string; target: st
   without.forEach((b, i) => Object.assign(b.box, { x: (i % 6) * (boxSize + 40), y: bottom + 60 + Math.floor(i / 6) * (boxSize + 40) }));
 }
 
-/** Places from left to right along the connections. */
+/** Places from left to right along the connections. Boxes that are connected with other pages only stand in rows above, those without connections in rows below. */
 export async function layOut(boxes: { id: string; box: Box }[], links: { source: string; target: string }[]): Promise<Map<string, Point>> {
+  const known = new Set(boxes.map((b) => b.id)), met = new Set(links.flatMap((l) => [l.source, l.target]));
+  const linked = new Set(links.flatMap((l) => (l.source !== l.target && known.has(l.source) && known.has(l.target) ? [l.source, l.target] : [])));
+  const places = new Map<string, Point>(), step = boxSize + gapOfBoxes;
+  let below = gapOfBoxes;
+  const inRows = (some: typeof boxes, columns: number) => {
+    some.forEach((b, i) => places.set(b.id, { x: gapOfBoxes + (i % columns) * step, y: below + Math.floor(i / columns) * step }));
+    below += Math.ceil(some.length / columns) * step;
+  };
+  const single = boxes.filter((b) => !linked.has(b.id));
+  inRows(single.filter((b) => met.has(b.id)), 6);
+  const ranks = linked.size ? await ranked(boxes.filter((b) => linked.has(b.id)), links) : new Map<string, Point>();
+  for (const [id, p] of ranks) places.set(id, { x: p.x, y: p.y + below - gapOfBoxes });
+  const placed = boxes.flatMap((b) => (places.has(b.id) ? [{ ...b.box, ...places.get(b.id)! }] : []));
+  below = Math.max(below, ...placed.map((b) => b.y + b.height + gapOfBoxes));
+  const others = single.filter((b) => !met.has(b.id)), right = Math.max(0, ...placed.map((b) => b.x + b.width));
+  inRows(others, Math.max(Math.floor(right / step), Math.ceil(Math.sqrt(2 * others.length))));
+  return places;
+}
+const gapOfBoxes = 50;
+async function ranked(boxes: { id: string; box: Box }[], links: { source: string; target: string }[]): Promise<Map<string, Point>> {
   const { Graph, layout } = await import('@dagrejs/dagre');
   const graph = new Graph();
-  graph.setGraph({ rankdir: 'LR', nodesep: 40, ranksep: 80, marginx: 40, marginy: 40 });
+  graph.setGraph({ rankdir: 'LR', nodesep: gapOfBoxes, ranksep: 70, marginx: gapOfBoxes, marginy: gapOfBoxes });
   graph.setDefaultEdgeLabel(() => ({}));
   for (const b of boxes) graph.setNode(b.id, { width: b.box.width, height: b.box.height });
   for (const l of links) if (l.source !== l.target && graph.hasNode(l.source) && graph.hasNode(l.target)) graph.setEdge(l.source, l.target);
@@ -177,7 +204,7 @@ function linesOf(process: Process | null, boxes: PageBox[], links: { connection:
     const list: VertexList = from.phantom ? 'target_vertices' : to.phantom ? 'source_vertices' : 'vertices';
     const vertices = (connection.line?.[list] ?? []).map(([x, y]) => ({ x: x * scale, y: y * scale }));
     const ports: PageLine['ports'] = [portOf(from, connection.source, true), portOf(to, connection.target, false)];
-    const key = process ? connection.id : `${source} ${target} ${connection.kind} ${JSON.stringify(vertices)} ${ports.join(' ')}`;
+    const key = `${source} ${target} ${connection.kind} ${JSON.stringify(vertices)} ${ports.join(' ')}`;
     const known = merged.get(key);
     if (known) {
       known.members.push(connection);
@@ -192,14 +219,48 @@ function linesOf(process: Process | null, boxes: PageBox[], links: { connection:
       ports,
       drawn: process !== null && connection.line !== null && from.placed && to.placed,
       lane: 0,
+      aside: 0,
       vertices,
       list,
     });
   }
   const lines = [...merged.values()];
   setLanes(lines, byId);
+  setRoutes(lines, boxes, byId);
   return lines;
 }
+
+/** The lines of a bundle, side by side. */
+export const apart = (line: PageLine): PageLine[] =>
+  line.members.map((connection, i) => ({
+    ...line,
+    id: connection.id,
+    connection,
+    members: [connection],
+    ...(line.source === line.target ? { lane: line.lane + i } : { aside: (i - (line.members.length - 1) / 2) * 10 }),
+  }));
+
+/** Finding ways takes longer on larger pages, on which single lines cannot be followed. */
+const maxRoutes = 150, maxRoutedBoxes = 60;
+/** Lines to which the file gives no vertices go around the boxes. */
+function setRoutes(lines: PageLine[], boxes: PageBox[], byId: Map<string, PageBox>): void {
+  const free = lines.filter((l) => l.vertices.length === 0 && l.source !== l.target);
+  if (free.length > maxRoutes || boxes.length > maxRoutedBoxes) return;
+  const ends = free.map((l) => [byId.get(l.source)!, byId.get(l.target)!] as const);
+  route(boxes.map((b) => b.box), free.map((l, i) => [endOf(l, ends[i]![0], ends[i]![1], 0), endOf(l, ends[i]![1], ends[i]![0], 1)])).forEach((points, i) => {
+    if (points) free[i]!.route = { points, from: { ...ends[i]![0].box }, to: { ...ends[i]![1].box } };
+  });
+}
+/** Where a line that is routed meets a box: at its port or its point in the file, otherwise in the middle of the side that faces the other box. */
+function endOf({ connection, drawn, ports }: PageLine, { box, ...b }: PageBox, other: PageBox, which: 0 | 1): End {
+  const port = portPoint({ box, ...b }, ports[which], centre(other.box));
+  if (port) return { box, at: port, side: port.x > box.x ? 1 : 3 };
+  const number = which === 0 ? connection.line?.source_anchor : connection.line?.target_anchor;
+  const inFile = !b.phantom && (drawn || other.phantom) && number !== undefined;
+  const side = inFile ? ((Math.floor(number / 4) % 4) as Side) : facingSide(box, other.box, b.phantom);
+  return { box, at: inFile ? anchor(box, number) : [anchor(box, 1.5), anchor(box, 5.5), anchor(box, 9.5), anchor(box, 13.5)][side]!, side, slides: !inFile };
+}
+const alike = (a: Box, b: Box) => a.x === b.x && a.y === b.y && a.width === b.width && a.height === b.height;
 
 /** Of lines that would lie on each other, the first stays, and the others take the nearest places beside it that are free. Vertices are places of the file: a line with some of them stays there. */
 function setLanes(lines: PageLine[], boxes: Map<string, PageBox>): void {
@@ -254,10 +315,12 @@ export function pointsOf(line: PageLine, from: PageBox, to: PageBox): Point[] {
   const { vertices } = line;
   const [a, b] = [from.box, to.box];
   if (from === to && vertices.length === 0) return loop(a, line.lane);
+  if (line.route && alike(line.route.from, a) && alike(line.route.to, b)) return line.aside ? shifted(line.route.points, line.aside) : line.route.points;
   const [p, q] = endPoints(line, from, to);
-  if (vertices.length || line.lane === 0) return [p, ...vertices, q];
+  const offset = line.aside + offsetOf(line.lane);
+  if (vertices.length || offset === 0) return [p, ...vertices, q];
   // Seen from either end, a line stands on the same side.
-  return beside(a, b, p, q, offsetOf(line.lane) * (line.source < line.target ? 1 : -1));
+  return beside(a, b, p, q, offset * (line.source < line.target ? 1 : -1));
 }
 
 /** Where a line without others beside it leaves and meets its boxes. */

@@ -2,8 +2,9 @@
 import { hexColour, inkOn, paper } from '../draw/ink';
 import { escape } from '../draw/save';
 import type { CanvasComment, Group, Process } from '../protocol/messages';
+import { shortened } from './labels';
 import { pointsOf, portRows, type PageBox, type PageLine } from './diagram';
-import { roundedPath, type Box, type Point } from './line';
+import { middleOfLongest, roundedPath, type Box, type Point } from './line';
 import { moduleLinks } from './module_links';
 
 const kinds = { excitatory: '#c4372c', inhibitory: '#2c62b8', modulatory: '#2f8a45' } as const;
@@ -25,6 +26,7 @@ export function wrapped(text: string, width: number, maxLines: number): string[]
   return out.length > maxLines ? [...out.slice(0, maxLines - 1), `${out[maxLines - 1]!.slice(0, width - 1)}…`] : out;
 }
 
+const letters = (text: string) => text.length;
 const texts = (box: Box, lines: string[], size: number, style: string, top: number) =>
   lines.map((l, i) => `<text x="${number(box.x + 7)}" y="${number(box.y + top + size * (1 + 1.25 * i))}" font-size="${size}" ${style}>${escape(l)}</text>`).join('');
 
@@ -37,13 +39,13 @@ function boxSvg(b: PageBox, process: Process | null): string {
     return rect(`rx="3" fill="${own ?? paper(false)}"`) + texts(box, wrapped(text, Math.floor((box.width - 14) / 6), Math.floor(box.height / 15)), 12, `fill="${own ? inkOn(own) : ink}"`, 4);
   }
   const item = b.item as Group | Process;
-  if (b.phantom) return rect(`rx="7" fill="#f4f3ef" stroke="${muted}" stroke-dasharray="4 3"`) + texts(box, wrapped((item as Group).path.replace('/', '/ '), 15, 2).map((l) => l.replace('/ ', '/')), 10, `fill="${ink}"`, 2);
+  if (b.phantom) return rect(`rx="7" fill="#f4f3ef" stroke="${muted}" stroke-dasharray="4 3"`) + texts(box, (item as Group).path.split(/(?<=\/)/).flatMap((part) => shortened(part, 16, 1, letters)), 11, `fill="${ink}"`, 4);
   const own = hexColour(item.color) && !/^#f{6}$/i.test(item.color);
   const about = 'groups' in item
     ? item.ports.length ? [] : [`${item.groups.length} ${item.groups.length === 1 ? 'group' : 'groups'}`, ...(item.module ? [item.enabled ? 'module' : 'module off'] : []), ...(item.linked ? ['linked'] : [])]
     : [item.places ? `${item.cells} cells` : `${item.width} × ${item.height}`];
   const links = process && !('groups' in item) ? moduleLinks(process, item.id) : { from: [], to: [] };
-  const lines = wrapped(item.name, links.from.length ? 10 : 12, 3);
+  const lines = shortened(item.name, links.from.length ? 10 : 12, 3, letters);
   // In the colour that the original has for them: from the module above, to it below.
   const arrow = (y: number, d: string) => `<path transform="translate(${number(box.x + box.width - 16)} ${number(y)})" d="${d}" fill="none" stroke="#2c62b8" stroke-width="1.6"/>`;
   return (
@@ -76,8 +78,8 @@ export function pageSvg(boxes: Iterable<PageBox>, lines: PageLine[], process: Pr
   );
   const paths = drawn.map(({ line, points }) => {
     const { kind } = line.connection, title = line.members.map((c) => c.name).join(', ');
-    const at = points[Math.floor((points.length - 1) / 2)]!, next = points[Math.floor((points.length - 1) / 2) + 1]!;
-    const count = line.members.length > 1 ? `<text x="${number((at.x + next.x) / 2)}" y="${number((at.y + next.y) / 2 - 4)}" font-size="11" text-anchor="middle" fill="${ink}">${line.members.length}</text>` : '';
+    const at = middleOfLongest(points);
+    const count = line.members.length > 1 ? `<text x="${number(at.x)}" y="${number(at.y - 4)}" font-size="11" text-anchor="middle" fill="${ink}">${line.members.length}</text>` : '';
     return `<g><title>${escape(title)}</title><path d="${roundedPath(points)}" fill="none" stroke="${kinds[kind]}" stroke-width="1.6" marker-end="url(#${kind})"/>${count}</g>`;
   });
   const below = [...all.values()].filter((b) => b.comment), above = [...all.values()].filter((b) => !b.comment);

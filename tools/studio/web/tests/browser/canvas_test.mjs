@@ -270,18 +270,38 @@ export default async function({ folder, context, start, open, faults, step }) {
   await resting();
   await tab('Reactive Layer');
 
-  step('connections between the same points lie side by side, and each is clicked where it is seen');
+  step('connections between the same points lie side by side, and each is clicked where it is seen; those of a kind are a bundle, which opens');
   const drawnHere = () => page.evaluate(() => [...document.querySelectorAll('g[data-connection]')].map((g) => g.dataset.connection));
   const known = await drawnHere();
-  for (const [from, to, kind] of [['us', 'Approach', 'e'], ['us', 'Approach', 'i'], ['approach', 'US', 'm'], ['us', 'US', 'e'], ['us', 'US', 'i']]) {
-    const drawn = (await drawnHere()).length;
+  const connect = async (from, to, kind) => {
     await diagram.locator(`.svelte-flow__node[data-id="reactive.${from}"]`).focus();
     await until(page, 'the box has the focus', (id) => document.activeElement?.dataset.id === id, `reactive.${from}`);
     await page.keyboard.press(kind);
-    const connect = page.getByRole('dialog', { name: 'Connect' });
-    await connect.getByLabel('To', { exact: true }).selectOption({ label: `Reactive Layer/${to}` });
-    await connect.getByRole('button', { name: 'Connect' }).click();
-    await connect.waitFor({ state: 'hidden' });
+    const dialog = page.getByRole('dialog', { name: 'Connect' });
+    await dialog.getByLabel('To', { exact: true }).selectOption({ label: `Reactive Layer/${to}` });
+    await dialog.getByRole('button', { name: 'Connect' }).click();
+    await dialog.waitFor({ state: 'hidden' });
+  };
+  const bundle = page.locator('g[data-connection]', { hasText: '2' });
+  const escape = async () => {
+    await canvas.focus();
+    await page.keyboard.press('Escape');
+  };
+  await connect('us', 'Approach', 'e');
+  await until(page, 'the new one, beside the other', (n) => document.querySelectorAll('g[data-connection]').length === n + 1, known.length);
+  await escape();
+  await bundle.waitFor();
+  assert.deepEqual(await drawnHere(), known);
+  const first = await bundle.getAttribute('data-connection');
+  await page.mouse.click(...(await along(first, 0.5)));
+  await until(page, 'its two lines', () => document.querySelectorAll('g[data-connection].chosen').length === 2);
+  await page.mouse.click(...(await along(first, 0.5)));
+  await until(page, 'one of them', (id) => [...document.querySelectorAll('g[data-connection].chosen')].map((g) => g.dataset.connection).join() === id, first);
+  await escape();
+  await bundle.waitFor();
+  for (const [from, to, kind] of [['us', 'Approach', 'i'], ['approach', 'US', 'm'], ['us', 'US', 'e'], ['us', 'US', 'i']]) {
+    const drawn = (await drawnHere()).length;
+    await connect(from, to, kind);
     await until(page, 'another line', (n) => document.querySelectorAll('g[data-connection]').length === n + 1, drawn);
   }
   await picture(page, 'parallel');
@@ -297,7 +317,7 @@ export default async function({ folder, context, start, open, faults, step }) {
     }
   }
   await canvas.focus();
-  for (const _ of added) await page.keyboard.press('Control+z');
+  for (let i = 0; i <= added.length; i++) await page.keyboard.press('Control+z');
   await until(page, 'the lines are gone', (n) => document.querySelectorAll('g[data-connection]').length === n, known.length);
   await clean();
 
@@ -317,6 +337,19 @@ export default async function({ folder, context, start, open, faults, step }) {
   await banner.getByRole('button', { name: 'Keep mine' }).click();
   await banner.waitFor({ state: 'detached' });
   await inFile('mine', /name="excGain" value="4"/);
+
+  step('a turn of the wheel with Ctrl, as two fingers on a pad are reported, zooms the page');
+  await tab('System');
+  await canvas.focus();
+  await page.keyboard.press('f');
+  const centre = await empty(), whole = await resting();
+  await page.mouse.move(...centre);
+  await page.keyboard.down('Control');
+  await page.mouse.wheel(0, -120);
+  await page.keyboard.up('Control');
+  const wheeled = await resting();
+  assert.ok(wheeled > 1.05 * whole, `${whole} becomes ${wheeled}`);
+  assert.equal(await page.evaluate(() => window.visualViewport.scale), 1, 'the page of the browser stays');
 
   step('axe finds no serious fault of accessibility');
   await tab('System');

@@ -1,0 +1,39 @@
+// Names in boxes: shortened where they do not fit, and never smaller than can be read.
+
+/** How large a text is, in units of its font size. */
+export type Measure = (text: string) => number;
+
+/** The size of texts on a page, for so many pixels of the screen. It grows in steps, as each one redraws all boxes. */
+export const labelSize = (zoom: number): number => Math.ceil(Math.max(12, 11 / zoom));
+
+/** The start of a text that fits, with dots when it is not the whole; nothing instead of one or two letters. */
+function cut(text: string, width: number, measure: Measure): string {
+  if (measure(text) <= width) return text;
+  let end = text.length - 1;
+  while (end > 1 && measure(`${text.slice(0, end)}…`) > width) end--;
+  return end < 3 ? '' : `${text.slice(0, end).trimEnd()}…`;
+}
+
+/** A name in at most `maxLines` lines; what does not fit ends in dots, and no word goes on in the next line. */
+export function shortened(name: string, width: number, maxLines: number, measure: Measure): string[] {
+  const lines: string[] = [];
+  for (const word of name.split(/\s+/)) {
+    const last = lines[lines.length - 1];
+    if (last !== undefined && measure(`${last} ${word}`) <= width) lines[lines.length - 1] = `${last} ${word}`;
+    else lines.push(word);
+  }
+  const most = Math.max(1, maxLines);
+  return [...lines.slice(0, most - 1), lines.slice(most - 1).join(' ')].map((l) => cut(l, width, measure)).filter(Boolean);
+}
+
+const widths = new Map<string, number>();
+let context: CanvasRenderingContext2D | null = null;
+/** As the page writes names. */
+export const measure: Measure = (text) => {
+  if (!context) {
+    context = document.createElement('canvas').getContext('2d')!;
+    context.font = `600 100px ${getComputedStyle(document.body).fontFamily}`;
+  }
+  if (!widths.has(text)) widths.set(text, context.measureText(text).width / 100);
+  return widths.get(text)!;
+};
