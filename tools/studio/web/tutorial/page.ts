@@ -1,5 +1,6 @@
 // Makes a page of the panel Tutorial from a file of docs/tutorial. Runs in the build; the page of the studio gets the HTML.
 import { Marked } from 'marked';
+import { formulas, greek } from './formula';
 import type { Setup } from '../src/tutorial/setup';
 
 export interface TutorialPage {
@@ -12,7 +13,7 @@ export interface TutorialPage {
 }
 
 const escape = (text: string) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeAt(0)};`);
-const panelKinds = ['space', 'time', 'raster', 'weights', 'wiring', 'camera', 'manipulate', 'sampler'];
+const panelKinds = ['space', 'time', 'raster', 'weights', 'wiring', 'camera', 'manipulate', 'sampler', 'trials'];
 
 /** Reads what a comment `<!-- studio ... -->` says: lines of a key, a colon and a value. */
 export function readSetup(text: string): Setup {
@@ -38,7 +39,8 @@ export function readSetup(text: string): Setup {
       const [, item, low, high] = /^(.+) from (\S+) to (\S+)$/.exec(value) ?? [];
       if (item && !(Number(low) < Number(high))) throw new Error(`'${value}' has no scale: two numbers, the lower one first`);
       setup.panels.push(item ? { kind: key, item, scale: [Number(low), Number(high)] } : { kind: key, item: value });
-    } else if (panelKinds.includes(key)) setup.panels.push({ kind: key, item: value });
+    } else if (key === 'trials' && !/^[1-9]\d*$/.test(value)) throw new Error(`'${value}' is not a number of trials`);
+    else if (panelKinds.includes(key)) setup.panels.push({ kind: key, item: value });
     else throw new Error(`'${key}' is not a key of a set-up`);
   }
   if (!setup.system || !setup.world) throw new Error('a set-up names a system and a world');
@@ -65,6 +67,8 @@ const inline = (text: string) => new Marked({ renderer: { html: ({ text }) => es
 export function makePage(id: string, markdown: string, ids: string[]): TutorialPage {
   const page: TutorialPage = { id, title: '', html: '', setups: [], pictures: [] };
   let folded = 0;
+  // Formulas have letters where parameters have names: the first mention of a name says which.
+  const named = new Set<string>();
   const marked = new Marked({
     renderer: {
       heading({ tokens, depth }) {
@@ -97,7 +101,14 @@ export function makePage(id: string, markdown: string, ids: string[]): TutorialP
         if (ids.includes(to)) return `<a href="#${to}" data-part="${to}">${text}</a>`;
         return /^https:\/\//.test(href) ? `<a href="${escape(href)}" target="_blank" rel="noreferrer">${text}</a>` : text;
       },
+      codespan({ text }) {
+        const letter = named.has(text) ? undefined : greek[text];
+        named.add(text);
+        return `${letter ? `<i>${letter}</i>, ` : ''}<code>${escape(text)}</code>`;
+      },
       code({ text, lang }) {
+        const set = lang ? null : formulas(text);
+        if (set) return set;
         const code = `<pre tabindex="0"><code>${escape(text)}</code></pre>`;
         if (lang !== 'sh') return `${code}\n`;
         return `<details class="shell"><summary>In a shell: <code>${escape(text.split('\n')[0]!.replace('build/release/bin/', ''))}</code></summary>${code}</details>\n`;

@@ -1,7 +1,7 @@
 // Names in boxes: shortened where they do not fit, and never smaller than can be read.
 
 /** How large a text is, in units of its font size. */
-export type Measure = (text: string) => number;
+type Measure = (text: string) => number;
 
 /** The size of texts on a page, for so many pixels of the screen. It grows in steps, as each one redraws all boxes. */
 export const labelSize = (zoom: number): number => Math.ceil(Math.max(12, 11 / zoom));

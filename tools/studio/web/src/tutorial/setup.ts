@@ -9,6 +9,7 @@ import { command } from '../studio';
 
 export interface PanelSetup {
   kind: string;
+  /** What it shows; of the trials, how many its button runs. */
   item: string;
   /** The ends of a fixed scale. */
   scale?: [number, number];
@@ -50,6 +51,7 @@ function panelOf({ kind, item, scale }: PanelSetup, window: number): PanelState 
   if (kind === 'space' && scale) return { kind, item, scale: { mode: 'manual', low: scale[0], high: scale[1] } };
   // Cells are between 0 and 1, mostly: a scale that followed smaller values would show noise as an answer.
   if (kind === 'space') return { kind, item, scale: { mode: 'expand', low: 0, high: 1 } };
+  if (kind === 'trials') return { kind, count: Number(item) };
   return kind === 'sampler' ? { kind, sources: [item] } : { kind, item };
 }
 

@@ -19,6 +19,16 @@ export default async function({ site, folder, start, open, faults, step }) {
   const large = page.getByRole('dialog', { name: 'Picture' });
   await until(page, 'a larger picture', () => document.querySelector('dialog[open] img').offsetWidth > 1.5 * document.querySelector('[aria-label="Tutorial"] img').offsetWidth);
   await large.getByRole('button', { name: 'Close' }).click();
+  await tutorial.getByRole('button', { name: 'Enlarge' }).or(tutorial.locator('.picture')).first().press('Enter');
+  await large.waitFor();
+  await page.keyboard.press('Escape');
+  await large.waitFor({ state: 'detached' });
+  await tutorial.getByRole('button', { name: '3', exact: true }).click();
+  await until(page, 'typeset formulas, within the text', () => {
+    const all = [...document.querySelectorAll('.formula math')], text = document.querySelector('[aria-label="Tutorial"] .text');
+    return all.length === 4 && all.every((m) => m.offsetWidth !== 0 && m.getBoundingClientRect().right <= text.getBoundingClientRect().right) && text.scrollWidth <= text.clientWidth;
+  });
+  await picture(page, 'formulas');
 
   step('the first exercise of each part, or every one with FORAGE_WHOLE, is set up: its system is opened, no command is refused, each of its plots gets numbers, and the diagram shows the process that it is about');
   const refused = page.locator('.notice.error');
@@ -56,7 +66,7 @@ export default async function({ site, folder, start, open, faults, step }) {
     await page.setViewportSize({ width, height });
     await tutorial.locator('[data-open="0"]').click();
     await tutorial.locator('.setup.active [data-open="0"]').waitFor();
-    for (const tab of ['Contextual/Proposal raster', 'mean(Contextual/Entropy) over time', 'Diagram', 'Arena']) {
+    for (const tab of ['Contextual/Proposal raster', 'mean(Contextual/Entropy) over time', 'Trials', 'Diagram', 'Arena']) {
       await page.locator('.dv-tab', { hasText: tab }).click();
       await until(page, `${tab} at ${width} x ${height}`, (t) => [...document.querySelectorAll('.dv-groupview')].some((g) => g.querySelector('.dv-active-tab')?.textContent.includes(t) && g.offsetHeight > 200 && g.offsetWidth > 300), tab);
     }
@@ -66,6 +76,9 @@ export default async function({ site, folder, start, open, faults, step }) {
     await picture(page, `tutorial-${width}`);
   }
   await page.setViewportSize({ width: 1400, height: 900 });
+  await tutorial.locator('[data-open="0"]').click();
+  await until(page, 'as many trials as the exercise asks for', () => document.querySelector('input[aria-label="Number of trials"]')?.value === '100');
+  await picture(page, 'tutorial-trials');
 
   step('a system of the tutorial is saved under another name, in the folder of the user');
   await page.keyboard.press('Control+s');

@@ -17,6 +17,13 @@ describe('pages of the tutorial', () => {
     expect(made.html).toContain('<img src="picture:1.png" alt="An arena" loading="lazy">');
     expect(made.html.trim().endsWith('</details>')).toBe(true);
   });
+  it('have formulas as MathML, each with its meaning, in terms between which lines may break', () => {
+    const { html } = page("A:\n\n    y = W'x          the prediction\n    W += eta [ (x - 2)' + rho e ]\n\n`eta` is a rate, `eta` again.\n");
+    expect(html).toContain('<math><mi>y</mi><mo>=</mo><msup><mi>W</mi><mi mathvariant="normal">T</mi></msup><mi>x</mi></math></p><span>the prediction</span>');
+    expect(html).toContain('<mo>+=</mo><mi>η</mi><mo>[</mo><mo>(</mo><mi>x</mi><mo>−</mo><mn>2</mn><msup><mo>)</mo><mi mathvariant="normal">T</mi></msup></math> <math><mo>+</mo><mi>ρ</mi><mi>e</mi><mo>]</mo></math>');
+    expect(html).toContain('<i>η</i>, <code>eta</code> is a rate, <code>eta</code> again');
+    expect(page('    other = text; here\n').html).toContain('<pre');
+  });
   it('link to other parts; links to other documents are plain text', () => {
     expect(page('[two](2-second.md), [types](../types.md), [web](https://x.org/?a&b)').html.trim()).toBe(
       '<p><a href="#2-second" data-part="2-second">two</a>, types, <a href="https://x.org/?a&#38;b" target="_blank" rel="noreferrer">web</a></p>',
@@ -52,6 +59,7 @@ describe('pages of the tutorial', () => {
     ['system: a\nworld: b\nplot: x', "'plot' is not a key"],
     ['system: a\nworld: b\nchoose: x', 'and values'],
     ['system: a\nworld: b\nspeed: fast', 'not a speed'],
+    ['system: a\nworld: b\ntrials: some', 'not a number of trials'],
     ['hello', 'a key, a colon and a value'],
     ['system: a\nworld: b\nseed: x', "not a whole number from 1 up, for 'seed'"],
     ['system: a\nworld: b\nwindow: 0.5', 'not a whole number'],
@@ -64,6 +72,7 @@ describe('pages of the tutorial', () => {
     const read = (lines: string) => readSetup(`system: a\nworld: b\n${lines}`).diagram;
     expect(read('weights: A to B\ntime: Two words/G(1,1), Other/G')).toBe('Two words');
     expect(read('diagram: Third\nspace: P/G')).toBe('Third');
+    expect(read('trials: 30\nspace: P/G')).toBe('P');
   });
   it('may fix the scale of a plot, and say the seed and the seconds that plots over time show', () => {
     const setup = readSetup('system: a\nworld: b\nseed: 3\nwindow: 600\nspace: P/Two words from -0.5 to 0.2\ntime: P/G');
