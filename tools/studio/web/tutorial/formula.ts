@@ -5,7 +5,8 @@ const escape = (text: string) => text.replace(/[&<>"]/g, (c) => `&#${c.charCodeA
 
 /** A name, number, sign or bracket, with the mark of a transposed matrix if it has one. */
 function term(token: string, transposed: boolean): string {
-  const of = /^\d/.test(token) ? `<mn>${token}</mn>` : /^\w/.test(token) ? `<mi>${greek[token] ?? token}</mi>` : `<mo>${escape(token.replace('-', '−'))}</mo>`;
+  const sign = /^[()[\]]$/.test(token) ? ' stretchy="false" lspace="0" rspace="0"' : ' form="infix"';
+  const of = /^\d/.test(token) ? `<mn>${token}</mn>` : /^\w/.test(token) ? `<mi>${greek[token] ?? token}</mi>` : `<mo${sign}>${escape(token.replace('-', '−'))}</mo>`;
   return transposed ? `<msup>${of}<mi mathvariant="normal">T</mi></msup>` : of;
 }
 

@@ -14,7 +14,7 @@ function cut(text: string, width: number, measure: Measure): string {
   return end < 3 ? '' : `${text.slice(0, end).trimEnd()}…`;
 }
 
-/** A name in at most `maxLines` lines; what does not fit ends in dots, and no word goes on in the next line. */
+/** A name in at most `maxLines` lines; what does not fit ends in dots, and no word is broken over two lines. */
 export function shortened(name: string, width: number, maxLines: number, measure: Measure): string[] {
   const lines: string[] = [];
   for (const word of name.split(/\s+/)) {

@@ -206,7 +206,7 @@ interface Segment {
   high: number;
   /** It ends at a box. */
   fixed: boolean;
-  /** Where the line goes on at both ends: towards larger places or smaller ones, from where along the segment. */
+  /** The corners at its ends: where along the segment, and whether the line turns towards larger places (1) or smaller ones (-1). */
   turns: { at: number; towards: number }[];
 }
 function segments(route: Point[], across: Axis): Segment[] {

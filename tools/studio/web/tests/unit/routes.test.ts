@@ -64,7 +64,7 @@ describe('lines that share a way', () => {
 describe('a name', () => {
   const letters = (text: string) => text.length;
   it('is written in lines of whole words', () => expect(shortened('Head Direction Cells', 10, 3, letters)).toEqual(['Head', 'Direction', 'Cells']));
-  it('is shortened, and no word goes on in the next line', () => {
+  it('is shortened, and no word is broken over two lines', () => {
     expect(shortened('discrepancy', 8, 3, letters)).toEqual(['discrep…']);
     expect(shortened('Pre Thresh Approach', 12, 1, letters)).toEqual(['Pre Thresh…']);
     expect(shortened('Contextual Inhibition', 12, 2, letters)).toEqual(['Contextual', 'Inhibition']);

@@ -19,8 +19,10 @@ describe('pages of the tutorial', () => {
   });
   it('have formulas as MathML, each with its meaning, in terms between which lines may break', () => {
     const { html } = page("A:\n\n    y = W'x          the prediction\n    W += eta [ (x - 2)' + rho e ]\n\n`eta` is a rate, `eta` again.\n");
-    expect(html).toContain('<math><mi>y</mi><mo>=</mo><msup><mi>W</mi><mi mathvariant="normal">T</mi></msup><mi>x</mi></math></p><span>the prediction</span>');
-    expect(html).toContain('<mo>+=</mo><mi>η</mi><mo>[</mo><mo>(</mo><mi>x</mi><mo>−</mo><mn>2</mn><msup><mo>)</mo><mi mathvariant="normal">T</mi></msup></math> <math><mo>+</mo><mi>ρ</mi><mi>e</mi><mo>]</mo></math>');
+    expect(html).toContain('<math><mi>y</mi><mo form="infix">=</mo><msup><mi>W</mi><mi mathvariant="normal">T</mi></msup><mi>x</mi></math></p><span>the prediction</span>');
+    expect(html).toContain(
+      '<mo form="infix">+=</mo><mi>η</mi><mo stretchy="false" lspace="0" rspace="0">[</mo><mo stretchy="false" lspace="0" rspace="0">(</mo><mi>x</mi><mo form="infix">−</mo><mn>2</mn><msup><mo stretchy="false" lspace="0" rspace="0">)</mo><mi mathvariant="normal">T</mi></msup></math> <math><mo form="infix">+</mo><mi>ρ</mi><mi>e</mi><mo stretchy="false" lspace="0" rspace="0">]</mo></math>',
+    );
     expect(html).toContain('<i>η</i>, <code>eta</code> is a rate, <code>eta</code> again');
     expect(page('    other = text; here\n').html).toContain('<pre');
   });
