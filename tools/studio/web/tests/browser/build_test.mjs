@@ -266,7 +266,7 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await begin.getByRole('button', { name: 'Create' }).click();
   await page.getByRole('button', { name: 'Add the robot Bug' }).first().click(); // in either pane
   await tab('Bug');
-  for (const name of ['Motor', 'Proximity sensor', 'Target sensor']) await box(exact(name)).waitFor();
+  for (const name of ['Motor', 'Proximity sensor', 'Target sensor']) await diagram.locator(`.svelte-flow__node[aria-label="${name}"]`).waitFor(); // its text may be shorter
   assert.equal(await problems.count(), 0);
   await box(exact('Motor')).press('Delete');
   await page.getByRole('button', { name: '1 problem' }).click();
