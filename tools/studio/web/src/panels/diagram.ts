@@ -241,7 +241,7 @@ export const apart = (line: PageLine): PageLine[] =>
   }));
 
 /** Finding ways takes longer on larger pages, on which single lines cannot be followed. */
-const maxRoutes = 150, maxRoutedBoxes = 60;
+const maxRoutes = 100, maxRoutedBoxes = 40;
 /** Lines to which the file gives no vertices go around the boxes. */
 function setRoutes(lines: PageLine[], boxes: PageBox[], byId: Map<string, PageBox>): void {
   const free = lines.filter((l) => l.vertices.length === 0 && l.source !== l.target);
