@@ -40,9 +40,9 @@ endfunction()
 
 # forage_cold(TARGET...): targets that work before and after the cycles of a run. They are compiled for a short build, not for speed:
 # -Og takes less time than -O1, and also less than -O0, which emits every inline function. The build type of the sanitizers is in
-# CMakePresets.json.
+# CMakePresets.json. For browsers, they are made small.
 function(forage_cold)
   foreach(target ${ARGN})
-    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-Og> $<$<CONFIG:Sanitized>:-O0>)
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:$<IF:$<PLATFORM_ID:Emscripten>,-Oz,-Og>> $<$<CONFIG:Sanitized>:-O0>)
   endforeach()
 endfunction()
