@@ -279,7 +279,8 @@ inline auto system_elements() {
              {&BlockFunction::width,
               in("cells", required(whole("width", "diameter of what is near, in cells", 0)))},
              {&BlockFunction::height, omit_default(whole("height", "without effect", 0))}}),
-        element<RandomFunction>("FunRandom", "random between 0 and max", "", {{&RandomFunction::max, max()}}),
+        element<RandomFunction>("FunRandom", "random between 0 and max", "",
+                                {{&RandomFunction::max, required(number("max", "largest value"))}}),
         element<SynapseUse>(
             "Synapse", "the type of a connection's synapses", "Parameter Initial XRefHolder Note?",
             {{&SynapseUse::type, name_of(Names::synapse, "the synapse type"), &SynapseUse::at}}),

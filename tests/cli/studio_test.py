@@ -483,6 +483,8 @@ class Watching(unittest.TestCase):
             ({'plots': ['time:Bug/Light'], 'from': 1400}, 'cycle 1400 has not been computed'),
             ({'plots': ['time:Bug/Light'], 'width': 'wide'}, 'is no width'),
             ({'plots': ['diagram', 'trajectory']}, 'a figure is one file'),
+            ({'plots': []}, 'a figure is one file'),
+            ({'plots': ['trajectory'], 'from': 3}, 'is for plots of sources'),
         ):
             self.assertIn(message, self.page.ask('figure', **wanted)['problems'][0]['message'])
         self.page.do('begin_trial')

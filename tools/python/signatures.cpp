@@ -134,10 +134,18 @@ void complete_class(const py::handle& type) {
     if (PyInstanceMethod_Check(py::object(type.attr("__dict__")["__init__"]).ptr())) return;
     auto* c = reinterpret_cast<PyTypeObject*>(type.ptr());
     const auto text = fmt::format("{}()\n--\n\n", type.attr("__name__").cast<std::string>());
-    auto* copy = static_cast<char*>(PyObject_Malloc(text.size() + 1));  // Python frees it
+    // pybind11 allocates it, and Python frees it, by other functions since Python 3.13.
+#if PY_VERSION_HEX < 0x030D0000
+    constexpr auto allocate = PyObject_Malloc;
+    constexpr auto release = PyObject_Free;
+#else
+    constexpr auto allocate = PyMem_Malloc;
+    constexpr auto release = PyMem_Free;
+#endif
+    auto* copy = static_cast<char*>(allocate(text.size() + 1));
     if (!copy) throw std::bad_alloc();
     std::memcpy(copy, text.c_str(), text.size() + 1);
-    PyObject_Free(const_cast<char*>(std::exchange(c->tp_doc, copy)));
+    release(const_cast<char*>(std::exchange(c->tp_doc, copy)));
     c->tp_init = refuse_to_construct;
 }
 

@@ -1,5 +1,4 @@
 // The types of a registry as JSON.
-#include <cctype>
 #include <cmath>
 #include <functional>
 #include <map>
@@ -7,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/capitalized.h"
 #include "core/equations/declared_types.h"
 #include "core/xml/rules.h"
 #include "tools/api/describe/describe_json.h"
@@ -38,13 +38,9 @@ std::string plain_name(const std::string& attribute) {
         {"outerwidth", "Width"},
         {"outerheight", "Height"},
         {"count", "Cells per pair"},
-        {"min", "At distance 0"},
-        {"max", "At the largest distance"},
         {"sigma", "Width of the Gaussian"}};
     const auto found = words.find(attribute);
-    std::string out = found == words.end() ? attribute : found->second;
-    out.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(out.front())));
-    return out;
+    return found == words.end() ? capitalized(attribute) : found->second;
 }
 
 std::string plain_choice(const std::string& choice) {
@@ -62,7 +58,8 @@ json forms_in(const char* element) {
             json value = v.otherwise;
             if (number) value = v.otherwise.empty() ? std::max(v.low, 0.0) : std::stod(v.otherwise);
             json row = {{"name", a.name},
-                        {"label", plain_name(a.name)},
+                        // What they mean depends on the element.
+                        {"label", a.name == "min" || a.name == "max" ? capitalized(v.doc) : plain_name(a.name)},
                         {"doc", v.doc},
                         {"unit", v.unit},
                         {"kind", v.kind == xml::ValueKind::whole ? "integer"

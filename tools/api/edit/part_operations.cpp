@@ -1,13 +1,13 @@
 #include "tools/api/edit/part_operations.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <string_view>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/capitalized.h"
 #include "core/base/text_file.h"
 #include "core/model/build.h"
 #include "core/model/edit.h"
@@ -71,11 +71,6 @@ std::string first_sentence(const std::string& text) {
     }
     while (out.ends_with(' ') || out.ends_with('.') || out.ends_with(':')) out.pop_back();
     return out.empty() ? out : out + '.';
-}
-
-std::string capitalized(std::string text) {
-    if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-    return text;
 }
 
 }  // namespace

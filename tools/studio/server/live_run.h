@@ -68,6 +68,7 @@ struct LiveRun {
     std::uint64_t version = 0;
     /// What pauses the run.
     struct PauseCondition {
+        RunLength length;
         StopCondition condition;
         StopOrigin since;
     };

@@ -312,6 +312,12 @@ bool Session::rebuild(bool continues) {
     run->title = live.run->title;
     live.run = std::make_unique<Run>(std::move(*run));
     live.touches = touches;
+    if (auto& pause = live.pause_when) {
+        Diagnostics unknown;
+        pause->condition = StopCondition::make(pause->length, *live.run, unknown);  // groups have other numbers
+        if (restarted) pause->since = {};
+        if (unknown.failed()) pause.reset(), live.pace.running = false;
+    }
     live.failed.clear();
     live.files = digest_of_files(set, sources);
     if (edited.wanted) {

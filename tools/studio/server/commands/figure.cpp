@@ -52,6 +52,9 @@ struct FigureNeeds {
 FigureNeeds needs_of(Session& s, const Request& r) {
     Diagnostics diagnostics;
     FigureNeeds out;
+    const auto plots = r.texts("plots").size();
+    if (plots == 0 || (plots > 1 && r.text("layout").empty()))
+        throw InputError("a figure is one file", "several plots need a layout, such as 2x1");
     for (const auto& text : r.texts("plots"))
         if (const auto spec = plot::parse_plot(text, "plot", diagnostics)) {
             if (spec->of_cells() && std::ranges::find(out.sources, spec->source()) == out.sources.end())
@@ -64,6 +67,12 @@ FigureNeeds needs_of(Session& s, const Request& r) {
     const auto now = s.run().cycle();
     if (out.run() && now == 0)
         throw InputError("there is nothing to draw yet", "run the system before you export a figure");
+    const auto* world = s.run().environment();
+    if ((out.paths || out.trials) && (!world || world->robot_names().size() != 1))
+        throw InputError("paths and trials are drawn of a world with one robot",
+                         "use forage run and forage plot");
+    if (r.has("from") && out.sources.empty())
+        throw InputError("'from' is for plots of sources", "leave it out");
     out.from = r.has("from") ? r.whole("from") : 0;
     if (!out.sources.empty() && out.from >= now)
         throw InputError(fmt::format("cycle {} has not been computed", out.from),
@@ -71,12 +80,19 @@ FigureNeeds needs_of(Session& s, const Request& r) {
     return out;
 }
 
+/// More than these would stop the studio for long.
+constexpr std::uint64_t most_repeated = 1'000'000;
+
 /// Repeats the past of the run up to now, and writes the results that the figure needs into a folder.
 Results results_of_past(Session& s, const FigureNeeds& needs, const std::string& folder) {
     const std::uint64_t now = s.run().cycle(), first = s.live.history.first();
-    const std::uint64_t begin = needs.paths ? first : needs.sources.empty() ? now : needs.from;
+    const std::uint64_t begin =
+        std::max(needs.paths ? first : needs.sources.empty() ? now : needs.from, first);
+    if (now - begin > most_repeated)
+        throw InputError(fmt::format("the figure needs {} cycles of the past", now - begin),
+                         "begin it later, or use forage run and forage plot");
     FinishedRun out;
-    s.with_copy(std::max(begin, first), [&] {
+    s.with_copy(begin, [&] {
         Run& run = s.run();
         std::vector<model::RecordingSpec> recordings;
         for (const auto& source : needs.sources) recordings.push_back({{source}, 1});
@@ -90,7 +106,7 @@ Results results_of_past(Session& s, const FigureNeeds& needs, const std::string&
             run.add(std::make_unique<Recordings>(std::move(files), options, folder,
                                                  std::vector<std::pair<std::string, std::string>>()))
                 .begin_files(written);
-        if (const auto* world = run.environment(); world && world->robot_names().size() == 1) {
+        if (const auto* world = run.environment(); needs.paths || needs.trials) {
             run.add(std::make_unique<TrialRecorder>(*world, 0, run.layout(), "trials.csv"));
             if (needs.paths) run.add(std::make_unique<PathRecorder>(*world, 0, "trajectory.csv"));
         }
@@ -111,6 +127,8 @@ std::string commands_of(Session& s, const Request& r, const FigureNeeds& needs) 
         out = "forage run " + from;
         for (const auto& system : input.more) out += ' ' + shell_word(system);
         if (!input.world.empty()) out += " --world " + shell_word(input.world);
+        for (const auto& robot : input.robots) out += " --robot " + shell_word(robot.text);
+        if (input.lenient) out += " --lenient";
         for (const auto& plugin : input.plugins) out += " --plugin " + shell_word(plugin);
         for (const auto& setting : input.settings) out += " --set " + shell_word(setting.text);
         out += fmt::format(" --seed {} --cycles {}", input.seed, s.run().cycle());
@@ -128,14 +146,18 @@ std::string commands_of(Session& s, const Request& r, const FigureNeeds& needs) 
 
 /// Why these lines alone may give another figure; empty when they give the same.
 std::string difference_of(const Session& s, const FigureNeeds& needs) {
-    if (s.edited.document->dirty()) return "Save the system first: its file is older than what runs.";
-    if (!needs.run()) return "";
-    if (s.live.history.first() > 0)
-        return fmt::format("The system was edited at cycle {}, where the figure begins.",
-                           s.live.history.first());
-    if (!s.live.history.actions().empty())
-        return "Add the options of the Log: the run was changed while it lasted.";
-    return "";
+    std::string out;
+    if (s.edited.document->dirty()) out = "Save the system first: its file is older than what runs. ";
+    if (!needs.run()) return out;
+    const auto& history = s.live.history;
+    if (history.first() > 0)
+        out += fmt::format("The system was edited at cycle {}; these lines begin with it at cycle 0. ",
+                           history.first());
+    const auto now = s.live.run->cycle();
+    if (!s.live.touches->groups().empty() ||
+        std::ranges::any_of(history.actions(), [&](const auto& action) { return action.cycle < now; }))
+        out += "Add the options of the Log: the run was changed while it lasted.";
+    return out;
 }
 
 json draw_figure(Session& s, const Request& r) {

@@ -34,8 +34,11 @@ json run_until(Session& s, const Request& r) {
     Diagnostics diagnostics;
     auto condition = StopCondition::make(length, s.run(), diagnostics);
     throw_errors(diagnostics);
+    if (condition.holds(s.run()))
+        throw InputError(fmt::format("'{}' holds already", length.until.text),
+                         "go back, or wait for something else");
     start_run(s, r);
-    s.live.pause_when = {std::move(condition), StopCondition::begin(s.run())};
+    s.live.pause_when = {length, std::move(condition), StopCondition::begin(s.run())};
     std::string title = "run";
     if (length.trials) title += fmt::format(" {} trials", *length.trials);
     if (!length.until.empty())

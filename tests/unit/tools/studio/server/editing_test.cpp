@@ -692,6 +692,25 @@ TEST_CASE("a robot is one step, and a port gets a group of the size that it need
           false);
 }
 
+TEST_CASE("an edit keeps what a run waits for, or pauses it when that is gone") {
+    Editor e("reactive_foraging.iqr");
+    e.result({{"command", "speed"}, {"mode", "free"}});
+    e.result({{"command", "run_until"}, {"condition", "max(Selection/Motor In) < -1 or cycle > 1000000"}});
+    e.session->work(100);
+    const auto id = [&](const std::string& process, const std::string& group) -> std::string {
+        for (const auto& p : e.last["system"]["processes"])
+            for (const auto& g : p["groups"])
+                if (p["name"] == process && g["name"] == group) return g["id"];
+        return "";
+    };
+    e.edit({{{"do", "remove"}, {"ids", {id("Reactive Layer", "US")}}}});
+    CHECK(e.session->running());
+    e.session->work(101);
+    e.edit({{{"do", "remove"}, {"ids", {id("Selection", "Motor In")}}}});
+    CHECK_FALSE(e.session->running());
+    CHECK(e.ask({{"command", "run_until"}, {"condition", "cycle >= 0"}})["ok"] == false);
+}
+
 TEST_CASE("a backup is listed under its file, opened, and not written") {
     Editor e("reactive_foraging.iqr");
     const auto backup = e.result({{"command", "backup"}})["file"].get<std::string>();
