@@ -57,9 +57,9 @@ json forms_in(const char* element) {
             const bool number = v.kind == xml::ValueKind::number || v.kind == xml::ValueKind::whole;
             json value = v.otherwise;
             if (number) value = v.otherwise.empty() ? std::max(v.low, 0.0) : std::stod(v.otherwise);
+            const bool means_by_element = a.name == "min" || a.name == "max";
             json row = {{"name", a.name},
-                        // What they mean depends on the element.
-                        {"label", a.name == "min" || a.name == "max" ? capitalized(v.doc) : plain_name(a.name)},
+                        {"label", means_by_element ? capitalized(v.doc) : plain_name(a.name)},
                         {"doc", v.doc},
                         {"unit", v.unit},
                         {"kind", v.kind == xml::ValueKind::whole ? "integer"

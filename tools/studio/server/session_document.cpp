@@ -314,7 +314,8 @@ bool Session::rebuild(bool continues) {
     live.touches = touches;
     if (auto& pause = live.pause_when) {
         Diagnostics unknown;
-        pause->condition = StopCondition::make(pause->length, *live.run, unknown);  // groups have other numbers
+        pause->condition =
+            StopCondition::make(pause->length, *live.run, unknown);  // groups have other numbers
         if (restarted) pause->since = {};
         if (unknown.failed()) pause.reset(), live.pace.running = false;
     }

@@ -86,8 +86,10 @@ constexpr std::uint64_t most_repeated = 1'000'000;
 /// Repeats the past of the run up to now, and writes the results that the figure needs into a folder.
 Results results_of_past(Session& s, const FigureNeeds& needs, const std::string& folder) {
     const std::uint64_t now = s.run().cycle(), first = s.live.history.first();
-    const std::uint64_t begin =
-        std::max(needs.paths ? first : needs.sources.empty() ? now : needs.from, first);
+    const std::uint64_t begin = std::max(needs.paths             ? first
+                                         : needs.sources.empty() ? now
+                                                                 : needs.from,
+                                         first);
     if (now - begin > most_repeated)
         throw InputError(fmt::format("the figure needs {} cycles of the past", now - begin),
                          "begin it later, or use forage run and forage plot");
