@@ -108,7 +108,8 @@ Results results_of_past(Session& s, const FigureNeeds& needs, const std::string&
             run.add(std::make_unique<Recordings>(std::move(files), options, folder,
                                                  std::vector<std::pair<std::string, std::string>>()))
                 .begin_files(written);
-        if (const auto* world = run.environment(); needs.paths || needs.trials) {
+        // Plots over time show trials.
+        if (const auto* world = run.environment(); world && world->robot_names().size() == 1) {
             run.add(std::make_unique<TrialRecorder>(*world, 0, run.layout(), "trials.csv"));
             if (needs.paths) run.add(std::make_unique<PathRecorder>(*world, 0, "trajectory.csv"));
         }
