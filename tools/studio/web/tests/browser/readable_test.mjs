@@ -32,7 +32,6 @@ const faults = () => {
   return found;
 };
 
-
 /** What stays wrong on a page with at least this many boxes. */
 async function remaining(page, boxes) {
   await until(page, 'the boxes', (n) => document.querySelectorAll('.svelte-flow__node-item').length >= n, boxes);
