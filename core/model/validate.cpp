@@ -130,13 +130,14 @@ class Validator {
     void count_lost_ids() {
         std::set<std::string_view> lost;
         const auto look = [&](const std::string& id) {
-            if (!id.empty() && !groups_.find(id).group) lost.insert(id);
+            if (!groups_.find(id).group) lost.insert(id);
         };
         for (const auto& c : system_.connections) look(c.source), look(c.target);
         for (const auto& p : system_.processes)
             if (p.module)
                 for (const auto* references : {&p.module->inputs, &p.module->outputs})
-                    for (const auto& r : *references) look(r.target);
+                    for (const auto& r : *references)
+                        if (!r.target.empty()) look(r.target);
         follows_from_repeated_ = std::ssize(lost) <= repeated_ids_;
     }
 
