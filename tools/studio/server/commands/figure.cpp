@@ -80,8 +80,8 @@ FigureNeeds needs_of(Session& s, const Request& r) {
     return out;
 }
 
-/// More than these would stop the studio for long.
-constexpr std::uint64_t most_repeated = 1'000'000;
+/// The most cycles that a figure repeats; more would stop the studio for long.
+constexpr std::uint64_t max_repeated = 1'000'000;
 
 /// Repeats the past of the run up to now, and writes the results that the figure needs into a folder.
 Results results_of_past(Session& s, const FigureNeeds& needs, const std::string& folder) {
@@ -90,7 +90,7 @@ Results results_of_past(Session& s, const FigureNeeds& needs, const std::string&
                                          : needs.sources.empty() ? now
                                                                  : needs.from,
                                          first);
-    if (now - begin > most_repeated)
+    if (now - begin > max_repeated)
         throw InputError(fmt::format("the figure needs {} cycles of the past", now - begin),
                          "begin it later, or use forage run and forage plot");
     FinishedRun out;
