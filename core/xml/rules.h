@@ -56,6 +56,8 @@ struct ValueRule {
     std::string unit = {};       ///< of numbers; empty when they have none
     std::string otherwise = {};  ///< the value that holds where the file has none; empty when it has no text
     Names names = Names::nothing;
+    std::string label = {};                       ///< in forms; empty: the name of the attribute
+    std::vector<std::string> choice_labels = {};  ///< in forms; empty: the choices
 };
 
 struct AttributeRule {
@@ -158,6 +160,12 @@ inline AttributeRule decisive(AttributeRule rule) {
 /// The unit of a rule's numbers.
 inline AttributeRule in(std::string unit, AttributeRule rule) {
     rule.value.unit = std::move(unit);
+    return rule;
+}
+/// What forms call an attribute, and its choices, where the names in the file are not plain.
+inline AttributeRule called(std::string label, AttributeRule rule,
+                            std::vector<std::string> choice_labels = {}) {
+    rule.value.label = std::move(label), rule.value.choice_labels = std::move(choice_labels);
     return rule;
 }
 inline AttributeRule alternative(AttributeRule rule) {

@@ -31,8 +31,10 @@ inline AttributeRule coordinate(std::string name, std::string doc) {
     return required(
         whole(std::move(name), std::move(doc), -model::farthest_coordinate, model::farthest_coordinate));
 }
-inline AttributeRule min() { return required(number("min", "value at distance 0")); }
-inline AttributeRule max() { return required(number("max", "value at the largest distance")); }
+inline AttributeRule min() { return called("At distance 0", required(number("min", "value at distance 0"))); }
+inline AttributeRule max() {
+    return called("At the largest distance", required(number("max", "value at the largest distance")));
+}
 
 template <class Shape>
 std::vector<AttributeOf<Shape>> extent() {
@@ -41,10 +43,12 @@ std::vector<AttributeOf<Shape>> extent() {
 }
 template <class Shape>
 std::vector<AttributeOf<Shape>> window() {
-    return {{&Shape::inner_width, cells("innerwidth", "the hole's extent along x", 0)},
-            {&Shape::inner_height, cells("innerheight", "the hole's extent along y", 0)},
-            {&Shape::outer_width, cells("outerwidth", "the extent along x")},
-            {&Shape::outer_height, cells("outerheight", "the extent along y")}};
+    return {{&Shape::inner_width,
+             called("Width of the hole", cells("innerwidth", "the hole's extent along x", 0))},
+            {&Shape::inner_height,
+             called("Height of the hole", cells("innerheight", "the hole's extent along y", 0))},
+            {&Shape::outer_width, called("Width", cells("outerwidth", "the extent along x"))},
+            {&Shape::outer_height, called("Height", cells("outerheight", "the extent along y"))}};
 }
 
 inline auto system_elements() {
@@ -55,10 +59,14 @@ inline auto system_elements() {
     const ElementOf<Arborization> spread{
         .attributes = {
             {&Arborization::direction,
-             choice("direction", "RF: around the source cell; PF: around the target cell", {"RF", "PF"})},
+             called(
+                 "Around",
+                 choice("direction", "RF: around the source cell; PF: around the target cell", {"RF", "PF"}),
+                 {"the source cell", "the target cell"})},
             {&Arborization::probability,
-             number("initialization_probability",
-                    "probability that a point of the arborization becomes a synapse", 0, 1)}}};
+             called("Probability of a synapse",
+                    number("initialization_probability",
+                           "probability that a point of the arborization becomes a synapse", 0, 1))}}};
     const auto declaration = element<TypeDeclaration>(
         "NeuronType", "a neuron type of this file", "Constant State Equations!",
         {{&TypeDeclaration::name, required(text("name", "what groups or connections call it")),
@@ -257,9 +265,10 @@ inline auto system_elements() {
         element<EllipseWindowArbor>("ArbEllipseWindow", "an ellipse with a hole", "",
                                     window<EllipseWindowArbor>(), spread.rules()),
         element<AllArbor>("ArbAll", "every cell", "", {}, spread.rules()),
-        element<RandomArbor>("ArbRandom", "cells chosen at random", "",
-                             {{&RandomArbor::count, cells("count", "how many for each pair", 0)}},
-                             spread.rules()),
+        element<RandomArbor>(
+            "ArbRandom", "cells chosen at random", "",
+            {{&RandomArbor::count, called("Cells per pair", cells("count", "how many for each pair", 0))}},
+            spread.rules()),
         ElementRule{"AttenuationFunction", "what is lost over the distance", functions, {}, 1},
         ElementRule{"DelayFunction", "cycles lost over the distance", functions, {}, 1},
         element<UniformFunction>(
@@ -267,11 +276,12 @@ inline auto system_elements() {
             {{&UniformFunction::value, required(number("value", "attenuation, or delay in cycles"))}}),
         element<LinearFunction>("FunLinear", "rises with the distance", "",
                                 {{&LinearFunction::min, min()}, {&LinearFunction::max, max()}}),
-        element<GaussianFunction>(
-            "FunGaussian", "rises with the distance like a Gaussian upside down", "",
-            {{&GaussianFunction::min, min()},
-             {&GaussianFunction::max, max()},
-             {&GaussianFunction::sigma, in("cells", required(number("sigma", "its width in cells")))}}),
+        element<GaussianFunction>("FunGaussian", "rises with the distance like a Gaussian upside down", "",
+                                  {{&GaussianFunction::min, min()},
+                                   {&GaussianFunction::max, max()},
+                                   {&GaussianFunction::sigma,
+                                    called("Width of the Gaussian",
+                                           in("cells", required(number("sigma", "its width in cells"))))}}),
         element<BlockFunction>(
             "FunBlock", "min near, max far", "",
             {{&BlockFunction::min, min()},
@@ -279,8 +289,9 @@ inline auto system_elements() {
              {&BlockFunction::width,
               in("cells", required(whole("width", "diameter of what is near, in cells", 0)))},
              {&BlockFunction::height, omit_default(whole("height", "without effect", 0))}}),
-        element<RandomFunction>("FunRandom", "random between 0 and max", "",
-                                {{&RandomFunction::max, required(number("max", "largest value"))}}),
+        element<RandomFunction>(
+            "FunRandom", "random between 0 and max", "",
+            {{&RandomFunction::max, called("Largest value", required(number("max", "largest value")))}}),
         element<SynapseUse>(
             "Synapse", "the type of a connection's synapses", "Parameter Initial XRefHolder Note?",
             {{&SynapseUse::type, name_of(Names::synapse, "the synapse type"), &SynapseUse::at}}),

@@ -1,7 +1,5 @@
 // The types of a registry as JSON.
 #include <cmath>
-#include <functional>
-#include <map>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -28,25 +26,6 @@ json named(const Type& type) {
 
 json finite_or_null(double number) { return std::isfinite(number) ? json(number) : json(nullptr); }
 
-/// Plain words for attributes of files, for a form. Others are plain themselves.
-std::string plain_name(const std::string& attribute) {
-    static const std::map<std::string, std::string, std::less<>> words = {
-        {"direction", "Around"},
-        {"initialization_probability", "Probability of a synapse"},
-        {"innerwidth", "Width of the hole"},
-        {"innerheight", "Height of the hole"},
-        {"outerwidth", "Width"},
-        {"outerheight", "Height"},
-        {"count", "Cells per pair"},
-        {"sigma", "Width of the Gaussian"}};
-    const auto found = words.find(attribute);
-    return found == words.end() ? capitalized(attribute) : found->second;
-}
-
-std::string plain_choice(const std::string& choice) {
-    return choice == "RF" ? "the source cell" : choice == "PF" ? "the target cell" : choice;
-}
-
 /// The elements that may stand in an element of system files, with their attributes as parameters.
 json forms_in(const char* element) {
     json out = json::array();
@@ -57,9 +36,8 @@ json forms_in(const char* element) {
             const bool number = v.kind == xml::ValueKind::number || v.kind == xml::ValueKind::whole;
             json value = v.otherwise;
             if (number) value = v.otherwise.empty() ? std::max(v.low, 0.0) : std::stod(v.otherwise);
-            const bool means_by_element = a.name == "min" || a.name == "max";
             json row = {{"name", a.name},
-                        {"label", means_by_element ? capitalized(v.doc) : plain_name(a.name)},
+                        {"label", v.label.empty() ? capitalized(a.name) : v.label},
                         {"doc", v.doc},
                         {"unit", v.unit},
                         {"kind", v.kind == xml::ValueKind::whole ? "integer"
@@ -69,11 +47,11 @@ json forms_in(const char* element) {
                         {"low", finite_or_null(v.low)},
                         {"high", finite_or_null(v.high)}};
             if (!v.choices.empty()) row["options"] = v.choices;
-            for (const auto& choice : v.choices) row["labels"].push_back(plain_choice(choice));
+            if (!v.choice_labels.empty()) row["labels"] = v.choice_labels;
             parameters.push_back(std::move(row));
         }
         out.push_back({{"type", child.name},
-                       {"label", plain_name(child.rule->doc)},
+                       {"label", capitalized(child.rule->doc)},
                        {"doc", fmt::format("<{}> in the file", child.name)},
                        {"parameters", std::move(parameters)}});
     }

@@ -163,7 +163,7 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await field('Spread').selectOption('ArbRect');
   await write(field('Width'), 10);
   await field('Attenuation').selectOption('FunGaussian');
-  await write(field('Value at the largest distance'), 1);
+  await write(field('At the largest distance'), 1);
   await write(field('Width of the Gaussian'), 5);
 
   step('the others by the dialog, without the mouse');
