@@ -18,28 +18,28 @@ namespace {
 /// stands.
 struct CanvasElements {
     using Comment = model::CanvasComment;
-    ElementOf<Comment> id{.attributes = {{&Comment::id, required(text("id", ""))}}};
-    ElementOf<model::Icon> box{.attributes = {{&model::Icon::x, rows::coordinate("x", "")},
-                                              {&model::Icon::y, rows::coordinate("y", "")},
-                                              {&model::Icon::width, required(whole("width", "", 1))},
-                                              {&model::Icon::height, required(whole("height", "", 1))}}};
-    ElementOf<Comment> look{.attributes = {{&Comment::color, omit_default(text("color", ""))},
-                                           {&Comment::text, text("text", "")}}};
-    ElementOf<model::Phantom> phantom{.name = "forage:phantom",
-                                      .doc = "in a <Process>",
-                                      .attributes = {{&model::Phantom::group, required(text("group", ""))},
-                                                     {&model::Phantom::x, rows::coordinate("x", "")},
-                                                     {&model::Phantom::y, rows::coordinate("y", "")}}};
-    ElementOf<PageVertices> vertices{
-        .name = "forage:vertices",
-        .doc = "in a <DiagramLine>",
-        .attributes = {{&PageVertices::of_target, required(choice("page", "", {"source", "target"}))}},
-        .further_attributes = {required(text("points", ""))}};
+    ElementRow id = element<Comment>({}, {{&Comment::id, required(text("id", ""))}});
+    ElementRow box = element<model::Icon>({}, {{&model::Icon::x, coordinate("x", "")},
+                                               {&model::Icon::y, coordinate("y", "")},
+                                               {&model::Icon::width, required(whole("width", "", 1))},
+                                               {&model::Icon::height, required(whole("height", "", 1))}});
+    ElementRow look = element<Comment>(
+        {}, {{&Comment::color, omit_default(text("color", ""))}, {&Comment::text, text("text", "")}});
+    ElementRow phantom = element<model::Phantom>({"forage:phantom", "in a <Process>"},
+                                                 {{&model::Phantom::group, required(text("group", ""))},
+                                                  {&model::Phantom::x, coordinate("x", "")},
+                                                  {&model::Phantom::y, coordinate("y", "")}});
+    ElementRow vertices = element<PageVertices>(
+        {"forage:vertices", "in a <DiagramLine>"},
+        {{&PageVertices::of_target, required(choice("page", "", {"source", "target"}))}},
+        {required(text("points", ""))});
     Format format = [this] {
         ElementRule comment{"forage:comment", "in a <System> or <Process>"};
-        for (const auto& rules : {id.rules(), box.rules(), look.rules()})
-            comment.attributes.insert(comment.attributes.end(), rules.begin(), rules.end());
-        return Format{.name = "a part of the diagram", .elements = {comment, phantom, vertices}}.link();
+        for (const auto* row : {&id, &box, &look})
+            comment.attributes.insert(comment.attributes.end(), row->rule.attributes.begin(),
+                                      row->rule.attributes.end());
+        return Format{.name = "a part of the diagram", .elements = {comment, phantom.rule, vertices.rule}}
+            .link();
     }();
 };
 
@@ -75,7 +75,7 @@ std::string canvas_attribute(std::string_view name, std::string_view value) {
     return fmt::format(" {}=\"{}\"", name, inside);
 }
 template <class Struct>
-std::string canvas_attributes(const ElementOf<Struct>& element, const Struct& s) {
+std::string canvas_attributes(const ElementRow& element, const Struct& s) {
     std::string out;
     for (const auto& a : element.attributes)
         if (const auto value = value_of(a, s); !a.rule.omit_default || value != value_of(a, Struct()))
@@ -88,12 +88,12 @@ std::string written(const model::CanvasComment& c) {
            canvas_attributes(canvas().look, c);
 }
 std::string written(const model::Phantom& p) {
-    return canvas().phantom.name + canvas_attributes(canvas().phantom, p);
+    return canvas().phantom.rule.name + canvas_attributes(canvas().phantom, p);
 }
 std::string written(const PageVertices& v) {
     std::string list;
     for (const auto& p : v.points) list += fmt::format("{}{},{}", list.empty() ? "" : " ", p.x, p.y);
-    return canvas().vertices.name + canvas_attributes(canvas().vertices, v) +
+    return canvas().vertices.rule.name + canvas_attributes(canvas().vertices, v) +
            canvas_attribute("points", list);
 }
 
@@ -109,12 +109,12 @@ std::optional<CanvasPart> read_canvas_part(std::string_view comment) {
     const auto e = document ? document->root() : Element();
     const auto* rule = e ? canvas().format.find(e.name()) : nullptr;
     if (!rule || !check(e, *rule, canvas().format, mistakes) || mistakes.failed()) return std::nullopt;
-    if (rule->name == canvas().phantom.name) {
+    if (rule->name == canvas().phantom.rule.name) {
         model::Phantom phantom;
         canvas().phantom.read(e, phantom);
         return phantom;
     }
-    if (rule->name == canvas().vertices.name) {
+    if (rule->name == canvas().vertices.rule.name) {
         PageVertices vertices;
         canvas().vertices.read(e, vertices);
         auto points = canvas_points(e["points"].view);

@@ -17,6 +17,13 @@
 namespace forage::xml {
 namespace {
 
+/// Gives `s` the values of the attributes of `e` that are its members.
+template <class Struct>
+void read_attributes(const Element& e, Struct& s) {
+    for (const auto& row : experiment_elements())
+        if (row.type == typeid(Struct) && row.rule.name == e.name()) row.read(e, s);
+}
+
 /// Builds the model from a document in spite of errors that check() has found, to report further mistakes.
 class ExperimentReader {
   public:
@@ -302,9 +309,7 @@ const Format& experiment_format() {
                       .roots = {"experiment"},
                       .where_texts_stand = "write a text in the <note>, and a remark in <!-- -->",
                       .values = {{"text", {}}},
-                      .elements = std::apply(
-                          [](const auto&... element) { return std::vector<ElementRule>{element...}; },
-                          experiment_rows::experiment_elements())}
+                      .elements = rules_of(experiment_elements())}
             .link();
     }();
     return table;

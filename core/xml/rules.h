@@ -127,23 +127,23 @@ inline AttributeRule required(AttributeRule rule) {
     rule.required = true;
     return rule;
 }
-inline AttributeRule text(std::string name, std::string doc) {
-    return {std::move(name), {ValueKind::text, std::move(doc)}};
+inline AttributeRule text(std::string_view name, std::string_view doc) {
+    return {std::string(name), {ValueKind::text, std::string(doc)}};
 }
-inline AttributeRule flag(std::string name, std::string doc) {
-    return {std::move(name), {ValueKind::boolean, std::move(doc)}};
+inline AttributeRule flag(std::string_view name, std::string_view doc) {
+    return {std::string(name), {ValueKind::boolean, std::string(doc)}};
 }
-inline AttributeRule choice(std::string name, std::string doc, std::vector<std::string> choices) {
-    return {std::move(name),
-            {.kind = ValueKind::choice, .doc = std::move(doc), .choices = std::move(choices)}};
+inline AttributeRule choice(std::string_view name, std::string_view doc, std::vector<std::string> choices) {
+    return {std::string(name),
+            {.kind = ValueKind::choice, .doc = std::string(doc), .choices = std::move(choices)}};
 }
-inline AttributeRule number(std::string name, std::string doc,
+inline AttributeRule number(std::string_view name, std::string_view doc,
                             double low = -std::numeric_limits<double>::infinity(),
                             double high = std::numeric_limits<double>::infinity()) {
-    return {std::move(name), {ValueKind::number, std::move(doc), low, high}};
+    return {std::string(name), {ValueKind::number, std::string(doc), low, high}};
 }
-inline AttributeRule whole(std::string name, std::string doc, double low, double high = 1e6) {
-    return {std::move(name), {ValueKind::whole, std::move(doc), low, high}};
+inline AttributeRule whole(std::string_view name, std::string_view doc, double low, double high = 1e6) {
+    return {std::string(name), {ValueKind::whole, std::string(doc), low, high}};
 }
 
 /// An attribute that is not written when its value is the default.
@@ -158,14 +158,14 @@ inline AttributeRule decisive(AttributeRule rule) {
 }
 
 /// The unit of a rule's numbers.
-inline AttributeRule in(std::string unit, AttributeRule rule) {
-    rule.value.unit = std::move(unit);
+inline AttributeRule in(std::string_view unit, AttributeRule rule) {
+    rule.value.unit = unit;
     return rule;
 }
 /// What forms call an attribute, and its choices, where the names in the file are not plain.
-inline AttributeRule called(std::string label, AttributeRule rule,
+inline AttributeRule called(std::string_view label, AttributeRule rule,
                             std::vector<std::string> choice_labels = {}) {
-    rule.value.label = std::move(label), rule.value.choice_labels = std::move(choice_labels);
+    rule.value.label = label, rule.value.choice_labels = std::move(choice_labels);
     return rule;
 }
 inline AttributeRule alternative(AttributeRule rule) {

@@ -4,15 +4,12 @@ namespace forage::xml {
 namespace {
 
 Format format(std::string_view name, std::string_view beginning, std::string_view root) {
-    std::vector<ElementRule> elements = std::apply(
-        [](const auto&... element) { return std::vector<ElementRule>{element...}; }, system_elements());
-    std::erase_if(elements, [](const ElementRule& e) { return e.name.empty(); });
     return Format{.name = name,
                   .beginning = beginning,
                   .roots = {root},
                   .where_texts_stand = "write a text in a <Note>, and a remark in <!-- -->",
                   .values = {{"text", {}}},
-                  .elements = std::move(elements)}
+                  .elements = rules_of(system_elements())}
         .link();
 }
 

@@ -44,7 +44,7 @@ class Writer : Printer {
     /// Opens the element that describes `s`, with its attributes and those of `more`.
     template <class Struct, class... More>
     void begin(const Struct& s, const More&... more) {
-        open(element_of<Struct>().name.c_str());
+        open(element_of<Struct>().rule.name.c_str());
         attributes(s), (attributes(more), ...);
     }
     template <class... Structs>

@@ -55,7 +55,7 @@ template <class... Structs>
 json form_of(const std::variant<Structs...>& variant) {
     return std::visit(
         []<class Struct>(const Struct& s) -> json {
-            return {{"type", xml::element_of<Struct>().name}, {"values", values_of(s)}};
+            return {{"type", xml::element_of<Struct>().rule.name}, {"values", values_of(s)}};
         },
         variant);
 }
@@ -68,17 +68,17 @@ void read_values(const json& values, Struct& s) {
         if (it == values.end()) continue;
         const auto& choices = a.rule.value.choices;
         std::visit(
-            [&]<class T>(T Struct::*member) {
+            [&]<class T>(T* to) {
                 if constexpr (std::is_same_v<T, int>)
-                    s.*member = whole_from(*it, model::max_extent);
+                    *to = whole_from(*it, model::max_extent);
                 else if constexpr (std::is_enum_v<T>) {
                     if (const auto c = std::ranges::find(choices, it->template get<std::string>());
                         c != choices.end())
-                        s.*member = static_cast<T>(c - choices.begin());
-                } else if constexpr (requires { it->get_to(s.*member); })
-                    it->get_to(s.*member);
+                        *to = static_cast<T>(c - choices.begin());
+                } else if constexpr (requires { it->get_to(*to); })
+                    it->get_to(*to);
             },
-            a.member);
+            a.member.in(&s));
     }
 }
 
