@@ -270,34 +270,4 @@ std::vector<PlotSpec> add_plots(const std::vector<model::Expression>& plots, Run
     return trajectories;
 }
 
-DrawnFile draw_group_now(Run& run, const std::string& id, const std::string& state, Format format,
-                         const std::string& title) {
-    if (run.cycle() == 0) throw InputError("there is no cycle to draw yet");
-    Diagnostics diagnostics;
-    const auto source = observe::find_source(run.layout(), "#" + id + (state.empty() ? "" : ":" + state),
-                                             "plot", diagnostics);
-    throw_errors(diagnostics);
-    PlotSpec spec;
-    spec.kind = PlotSpec::Kind::space;
-    spec.what = source->what().name, spec.text = "space:" + spec.what;
-    spec.cycles_text = std::to_string(run.cycle() - 1);
-    std::vector<double> row(source->what().size());
-    source->read(run.simulation(), row);
-    const std::string name = spec.file(format);
-    RowPlot plot(std::move(spec), source->what());
-    plot.add(run.cycle() - 1, row);
-    return {name, plot.draw(format, context_of(run, title))};
-}
-
-DrawnFile draw_connection_now(const Run& run, const std::string& id, Format format,
-                              const std::string& title) {
-    PlotSpec spec;
-    spec.kind = PlotSpec::Kind::connection;
-    spec.what = id, spec.text = "connection:" + id;
-    auto picture = render(
-        structure_plot(spec, run.system(), run.registry(), &run.simulation(), run.seed(), title), format);
-    spec.cycles_text = std::to_string(run.cycle());
-    return {spec.file(format), std::move(picture)};
-}
-
 }  // namespace forage::plot

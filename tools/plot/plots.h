@@ -175,15 +175,4 @@ class FilmRecorder final : public Observer {
 std::vector<PlotSpec> add_plots(const std::vector<model::Expression>& plots, Run& run, Format format,
                                 const std::string& title, Diagnostics& diagnostics);
 
-/// A picture as the content of a file.
-struct DrawnFile {
-    std::string name, content;
-};
-/// The activity of a group, or another state, as a space plot of the last cycle. Throws InputError when there
-/// is none.
-DrawnFile draw_group_now(Run& run, const std::string& id, const std::string& state, Format format,
-                         const std::string& title);
-/// The present synapses of a connection. Throws std::exception.
-DrawnFile draw_connection_now(const Run& run, const std::string& id, Format format, const std::string& title);
-
 }  // namespace forage::plot

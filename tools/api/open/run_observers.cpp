@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <forage/forage.h>
 
 #include "core/observe/manipulation_spec.h"
 #include "core/run/broadcaster.h"
@@ -25,8 +26,7 @@ struct Preparation {
     PreparedRun& prepared;
     bug::World* world;  ///< null without robots
     Diagnostics& diagnostics;
-    plot::Format format;
-    std::string title;                           ///< of pictures
+    plot::Format format;                         ///< of pictures
     std::vector<plot::PlotSpec> trajectories{};  ///< plots of paths, which need their recorders
 
     const RunSpec& spec() const { return prepared.spec; }
@@ -72,7 +72,7 @@ void add_statistics(Preparation& p) {
 }
 
 void add_plots(Preparation& p) {
-    p.trajectories = plot::add_plots(p.spec().plots, p.run(), p.format, p.title, p.diagnostics);
+    p.trajectories = plot::add_plots(p.spec().plots, p.run(), p.format, p.run().title, p.diagnostics);
 }
 
 void add_trials(Preparation& p) {
@@ -93,7 +93,7 @@ void add_paths(Preparation& p) {
         const auto& path = p.run().add(std::make_unique<PathRecorder>(*p.world, robot, name + ".csv"));
         const auto draw = [&](std::optional<plot::PlotSpec> wanted) {
             p.run().add(std::make_unique<plot::TrajectoryPlotter>(*p.world, path, std::move(wanted), name,
-                                                                  p.format, p.title));
+                                                                  p.format, p.run().title));
         };
         for (const auto& wanted : p.trajectories) draw(wanted);
         if (p.trajectories.empty()) draw({});
@@ -112,8 +112,8 @@ void add_film(Preparation& p) {
     if (p.diagnostics.failed()) return;
     check_output(name, "film.gif", p.diagnostics);
     if (p.world)
-        p.run().add(std::make_unique<plot::FilmRecorder>(*p.world, name, p.run().seconds_per_cycle(), p.title,
-                                                         std::move(groups)));
+        p.run().add(std::make_unique<plot::FilmRecorder>(*p.world, name, p.run().seconds_per_cycle(),
+                                                         p.run().title, std::move(groups)));
 }
 
 void add_broadcaster(Preparation& p) {
@@ -141,13 +141,27 @@ void add_remote(Preparation& p) {
     auto& remote = p.run().add(std::make_unique<RemoteControl>(*p.spec().remote));
     p.prepared.remote = &remote;
     if (p.spec().directory.empty()) return;
-    remote.plot = [directory = p.spec().directory, format = p.format, title = p.title](
-                      const RemoteCommand& command, const std::string& id, Run& now) {
-        const auto drawn = command.item == RemoteCommand::Item::group
-                               ? plot::draw_group_now(now, id, command.parameter, format, title)
-                               : plot::draw_connection_now(now, id, format, title);
-        write_result(directory + "/" + drawn.name, drawn.content);
-        return drawn.name;
+    remote.plot = [directory = p.spec().directory, format = p.format](const RemoteCommand& command,
+                                                                      const std::string& id, Run& now) {
+        plot::PlotSpec spec;
+        std::string what = id;
+        if (command.item == RemoteCommand::Item::group) {
+            if (now.cycle() == 0) throw InputError("there is no cycle to draw yet");
+            const std::string state = command.parameter.empty() ? "" : ":" + command.parameter;
+            Diagnostics diagnostics;
+            const auto source = observe::find_source(now.layout(), "#" + id + state, "plot", diagnostics);
+            throw_errors(diagnostics);
+            what = "\"#" + id + "\"" + state;
+            spec.kind = plot::PlotSpec::Kind::space, spec.what = source->what().name;
+            spec.cycles_text = std::to_string(now.cycle() - 1);
+        } else {
+            spec.kind = plot::PlotSpec::Kind::connection, spec.what = id;
+            spec.cycles_text = std::to_string(now.cycle());
+        }
+        const std::string name = spec.file(format);
+        write_result(directory + "/" + name, draw(now, fmt::format("{}:{}", spec.name(spec.kind), what),
+                                                  std::string(plot::ending(format).substr(1))));
+        return name;
     };
 }
 
@@ -170,8 +184,8 @@ constexpr void (*add_in_order[])(Preparation&) = {
 }  // namespace
 
 void add_observers(PreparedRun& prepared, bug::World* world, Diagnostics& diagnostics) {
-    Preparation preparation{prepared, world, diagnostics, *plot::format_of("x." + prepared.spec.plot_format),
-                            run_title(prepared.spec.input)};
+    prepared.run.title = run_title(prepared.spec.input);
+    Preparation preparation{prepared, world, diagnostics, *plot::format_of("x." + prepared.spec.plot_format)};
     for (const auto add : add_in_order) add(preparation);
 }
 
