@@ -5,7 +5,6 @@
 #include <ctime>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <set>
 #include <stdexcept>
 
@@ -15,6 +14,7 @@
 #include <unistd.h>
 
 #include "core/base/digest.h"
+#include "core/base/file_bytes.h"
 #include "core/base/output_files.h"
 #include "core/base/shell_word.h"
 #include "core/observe/zip_file.h"
@@ -267,8 +267,7 @@ BundleRecord unpack_bundle(const std::string& path, const std::string& folder) {
     }
     BundleRecord out;
     try {
-        std::ifstream in(part.path() + "/" + record_name);
-        out = record_of(Json::parse(std::string(std::istreambuf_iterator<char>(in), {})));
+        out = record_of(Json::parse(file_bytes(part.path() + "/" + record_name)));
     } catch (const Json::exception& e) {
         throw std::runtime_error(fmt::format("its {} is not as Forage writes it: {}", record_name, e.what()));
     }

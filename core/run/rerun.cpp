@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/file_bytes.h"
 #include "core/base/separated.h"
-#include "core/base/text_file.h"
 #include "core/observe/zip_file.h"
 #include "core/run/bundle.h"
 #include "core/run/run_json.h"
@@ -99,11 +97,6 @@ std::optional<Rerun> from_run(const std::string& results, const std::string& dir
     return out;
 }
 
-std::string text_of(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
 /// Whether two files of results have the same content. Archives of arrays have other headers with another
 /// version of libzip.
 bool same_content(const std::string& before, const std::string& now) {
@@ -170,9 +163,9 @@ std::vector<Difference> differences(const Rerun& rerun) {
         if (!fs::exists(now, none)) {
             what = "is missing";
         } else if (fs::path(name).filename() == "run.json") {
-            what = result_difference(text_of(then), text_of(now));
+            what = result_difference(file_bytes(then), file_bytes(now));
         } else if (!same_content(then, now)) {
-            what = first_difference(text_of(then), text_of(now));
+            what = first_difference(file_bytes(then), file_bytes(now));
         }
         if (!what.empty()) out.push_back({name, what});
     }
@@ -181,8 +174,8 @@ std::vector<Difference> differences(const Rerun& rerun) {
 
 std::string version_difference(const Rerun& rerun) {
     try {
-        const auto then = Json::parse(text_of(rerun.expected + "/run.json")),
-                   here = Json::parse(text_of(rerun.results + "/run.json"));
+        const auto then = Json::parse(file_bytes(rerun.expected + "/run.json")),
+                   here = Json::parse(file_bytes(rerun.results + "/run.json"));
         std::vector<std::string> out;
         const auto compare = [&](const std::string& what, const Json& a, const Json& b) {
             if (a != b) out.push_back(fmt::format("{} {} then, {} now", what, a.dump(), b.dump()));

@@ -1,10 +1,9 @@
 #include "core/run/experiment/result.h"
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "core/base/digest.h"
+#include "core/base/file_bytes.h"
 #include "core/base/output_files.h"
 #include "core/run/experiment/result_json.h"
 #include "core/run/input_files.h"
@@ -15,11 +14,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::string path_of(const PlannedRun& run) { return run.spec.directory + "/result.json"; }
-
-std::string content_of(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 }  // namespace
 
@@ -59,7 +53,7 @@ std::string key_of(const PlannedRun& run, const model::Experiment& experiment) {
 
 std::optional<RunResult> read_result(const PlannedRun& run, const std::string& key) {
     try {
-        const auto json = Json::parse(content_of(path_of(run)));
+        const auto json = Json::parse(file_bytes(path_of(run)));
         if (json.at("run").dump() != key) return std::nullopt;
         return result_of(json.at("result"));
     } catch (const Json::exception&) {
@@ -68,7 +62,7 @@ std::optional<RunResult> read_result(const PlannedRun& run, const std::string& k
 }
 
 void forget_result(const PlannedRun& run) {
-    const auto json = Json::parse(content_of(path_of(run)), nullptr, false);
+    const auto json = Json::parse(file_bytes(path_of(run)), nullptr, false);
     std::error_code ignored;
     std::filesystem::remove(path_of(run), ignored);
     if (!json.is_object() || !json.contains("files") || !json["files"].is_array()) return;

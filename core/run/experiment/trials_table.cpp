@@ -4,12 +4,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "core/base/file_bytes.h"
 #include "core/base/output_files.h"
 #include "core/run/input_error.h"
 #include "core/run/trial_recorder.h"
@@ -25,8 +25,7 @@ constexpr std::size_t block = 4096;
 /// or empty.
 std::string read_table(const std::string& directory, Diagnostics& diagnostics) {
     const std::string path = directory + "/trials.csv";
-    std::ifstream in(path, std::ios::binary);
-    std::string out{std::istreambuf_iterator<char>(in), {}};
+    std::string out = file_bytes(path);
     if (out.empty())
         diagnostics.error(
             {}, fmt::format("cannot read the trials of a finished run: '{}' is missing or empty", path),

@@ -2,13 +2,12 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <iterator>
 #include <memory>
 
 #include <fmt/format.h>
 
+#include "core/base/file_bytes.h"
 #include "core/base/shell_word.h"
-#include "core/base/text_file.h"
 #include "core/run/path_recorder.h"
 #include "core/run/recordings.h"
 #include "core/run/trial_recorder.h"
@@ -34,11 +33,6 @@ struct TemporaryFolder {
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 };
-
-std::string bytes_of(const std::string& path) {
-    std::ifstream in = open_file(path);
-    return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// What a figure needs of the run.
 struct FigureNeeds {
@@ -186,7 +180,7 @@ json draw_figure(Session& s, const Request& r) {
     if (files.size() != 1)
         throw InputError("a figure is one file", "several plots need a layout, such as 2x1");
     return {{"file", fs::path(files.front()).filename().string()},
-            {"content", base64(bytes_of(files.front()))},
+            {"content", base64(file_bytes(files.front()))},
             {"shell", commands_of(s, r, needs)},
             {"note", difference_of(s, needs)}};
 }
