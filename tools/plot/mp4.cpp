@@ -9,10 +9,10 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <spawn.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
+
+#include "core/base/program.h"
 
 namespace forage::plot {
 
@@ -31,29 +31,18 @@ void Mp4File::start(const Pixels& frame) {
     const std::string size = fmt::format("{}x{}", frame.width, frame.height);
     const std::string rate = fmt::format("{}", 1 / seconds_per_frame_), part = name_ + ".part";
     // Players need even sizes and yuv420p. "file:" keeps ffmpeg from reading a protocol into the name.
-    std::vector<std::string> arguments = {
+    const std::vector<std::string> words = {
         "ffmpeg",   "-loglevel",   "error",     "-y",
         "-f",       "rawvideo",    "-pix_fmt",  "bgr0",
         "-s",       size,          "-r",        rate,
         "-i",       "-",           "-vf",       "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white",
         "-pix_fmt", "yuv420p",     "-bitexact", "-f",
         "mp4",      "file:" + part};
-    std::vector<char*> words;
-    for (auto& a : arguments) words.push_back(a.data());
-    words.push_back(nullptr);
     int ends[2];  // of a socket instead of a pipe: when ffmpeg has ended, writing is an error and no signal
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
         throw std::system_error(errno, std::generic_category(), "a socket");
-    posix_spawn_file_actions_t files;
-    posix_spawnattr_t attributes;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, ends[1], STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&files, STDERR_FILENO, STDOUT_FILENO);
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // Ctrl-C ends the run, and then the film
-    const int error = posix_spawnp(&process_, words[0], &files, &attributes, words.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&files);
+    // Apart, because Ctrl-C ends the run, and then the film.
+    const int error = start_program(process_, words, {.in = ends[1], .out = STDERR_FILENO}, true);
     close(ends[1]);
     socket_ = ends[0];
     if (error == 0) return;
@@ -80,9 +69,7 @@ void Mp4File::add(const Pixels& frame) {
 
 bool Mp4File::end() {
     close(socket_);
-    int status = -1;
-    while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
-    }
+    const int status = exit_status(process_);
     process_ = socket_ = -1;
     return status == 0;
 }

@@ -7,11 +7,11 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spawn.h>
 #include <unistd.h>
 
 #include "core/base/installation.h"
 #include "core/base/print.h"
+#include "core/base/program.h"
 #include "core/run/input_error.h"
 #include "tools/forage/options.h"
 #include "tools/forage/stop.h"
@@ -41,22 +41,10 @@ std::string redirect_file(const std::string& address) try {
 }
 
 /// Opens a file with the user's browser. Everybody can read the arguments of programs, so no address is one.
-bool open_browser(std::string file) {
-    if (file.empty()) return false;
-    std::string program = "xdg-open";
-    char* const words[] = {program.data(), file.data(), nullptr};
-    posix_spawn_file_actions_t files;
-    posix_spawn_file_actions_init(&files);
-    for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
-        posix_spawn_file_actions_addopen(&files, stream, "/dev/null", O_WRONLY, 0);
-    posix_spawnattr_t attributes;
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // Ctrl-C is not for it
-    pid_t child = 0;
-    const int error = posix_spawnp(&child, words[0], &files, &attributes, words, environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&files);
-    return error == 0;
+bool open_browser(const std::string& file) {
+    int id = 0;
+    const Streams silent{.out = Streams::nothing, .error = Streams::nothing};
+    return !file.empty() && start_program(id, {"xdg-open", file}, silent, true) == 0;
 }
 
 void print_address(const studio::Ready& ready) {

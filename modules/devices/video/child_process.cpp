@@ -8,28 +8,16 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
-#include <spawn.h>
-#include <sys/wait.h>
 #include <unistd.h>
+
+#include "core/base/program.h"
 
 namespace forage::video {
 
 ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
-    std::vector<char*> words;
-    for (const auto& a : arguments) words.push_back(const_cast<char*>(a.c_str()));
-    words.push_back(nullptr);
     int ends[2];
     if (pipe2(ends, O_CLOEXEC) != 0) throw std::system_error(errno, std::generic_category(), "a pipe");
-    posix_spawn_file_actions_t files;
-    posix_spawnattr_t attributes;
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, ends[1], STDOUT_FILENO);
-    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawnattr_init(&attributes);
-    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);  // Ctrl-C is not for it
-    const int error = posix_spawnp(&process_, words[0], &files, &attributes, words.data(), environ);
-    posix_spawnattr_destroy(&attributes);
-    posix_spawn_file_actions_destroy(&files);
+    const int error = start_program(process_, arguments, {.in = Streams::nothing, .out = ends[1]}, true);
     close(ends[1]);
     pipe_ = ends[0];
     if (error == 0) return;
@@ -43,16 +31,13 @@ ChildProcess::ChildProcess(const std::vector<std::string>& arguments) {
 
 ChildProcess::~ChildProcess() {
     close(pipe_);
-    if (!status_) kill(process_, SIGKILL);
-    succeeded();
+    if (status_) return;
+    kill(process_, SIGKILL);
+    exit_status(process_);
 }
 
 bool ChildProcess::succeeded() {
-    while (!status_) {
-        int status = 0;
-        const auto done = waitpid(process_, &status, 0);
-        if (done >= 0 || errno != EINTR) status_ = done >= 0 ? status : -1;
-    }
+    if (!status_) status_ = exit_status(process_);
     return *status_ == 0;
 }
 

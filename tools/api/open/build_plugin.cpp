@@ -11,11 +11,9 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "core/base/output_files.h"
+#include "core/base/program.h"
 #include "core/plugin/declarations.h"
 #include "core/plugin/plugin.h"
 #include "core/run/input_error.h"
@@ -34,25 +32,6 @@ bool is_installation(const fs::path& folder) {
 }
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
-/// Runs a command and waits for it. `errors`, if it is not null, gets its standard output and error. Returns
-/// its exit status, or -1 when it cannot be run.
-int run_command(std::vector<std::string> words, std::FILE* errors) {
-    std::vector<char*> arguments;
-    for (auto& w : words) arguments.push_back(w.data());
-    arguments.push_back(nullptr);
-    posix_spawn_file_actions_t actions;
-    posix_spawn_file_actions_init(&actions);
-    if (errors)
-        for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
-            posix_spawn_file_actions_adddup2(&actions, fileno(errors), stream);
-    pid_t child = 0;
-    const int failed = posix_spawnp(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    int status = 0;
-    if (failed != 0 || waitpid(child, &status, 0) != child || !WIFEXITED(status)) return -1;
-    return WEXITSTATUS(status);
-}
 
 std::string content(std::FILE* file) {
     std::rewind(file);
@@ -139,7 +118,10 @@ void compile_and_check(const PluginBuild& build, const std::string& output, Diag
     const char* named = std::getenv("CXX");
     const std::string compiler = named && *named ? named : "c++";
     const File said(build.collect ? std::tmpfile() : nullptr, &std::fclose);
-    const int status = run_command(command(build, compiler, output), said.get());
+    const int to = said ? fileno(said.get()) : Streams::inherited;
+    int id = 0;
+    const int error = start_program(id, command(build, compiler, output), {.out = to, .error = to}, false);
+    const int status = error ? -1 : exit_status(id);
     if (status == -1 || status == 127)
         return diagnostics.error(
             {}, fmt::format("the compiler '{}' cannot be run", compiler),
