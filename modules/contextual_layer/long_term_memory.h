@@ -25,10 +25,9 @@ class LongTermMemory {
 
     Index sequences() const { return distance_.rows(); }  ///< NL
     Index segments() const { return distance_.cols(); }   ///< NS
-    Index max_length() const { return max_length_; }      ///< largest length of a sequence: min(NL, NS)
     Index length(Index row) const { return lengths_[static_cast<std::size_t>(row)]; }
 
-    /// Stores the couplets of `memory`, at most the newest max_length() of them, as the next sequence. It
+    /// Stores the couplets of `memory`, at most the newest min(NL, NS) of them, as the next sequence. It
     /// replaces the oldest sequence when all rows are used.
     void store(const ShortTermMemory& memory);
     /// The row to which the next store() writes.
@@ -60,7 +59,7 @@ class LongTermMemory {
     }
 
   private:
-    Index max_length_ = 0;
+    Index max_length_ = 0;       ///< of a sequence: min(NL, NS)
     PrototypeStore prototypes_;  ///< prototypes of the used segments; a key is row NS + column
     Eigen::ArrayXXf actions_;    ///< M x (NL max_length)
     std::vector<Index> lengths_;

@@ -51,7 +51,6 @@ class Document {
     const model::System& system() const { return system_; }
     /// What the reader said of the text.
     const Diagnostics& reading() const { return diagnostics_; }
-    const std::string& saved_text() const { return saved_; }  ///< empty before the first save
     const model::System& saved_system() const {
         return saved_system_;
     }                                               ///< that of the file, as last read or saved
