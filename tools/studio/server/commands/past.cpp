@@ -29,15 +29,6 @@ json seek_cycle(Session& s, const Request& r) {
     return {{"cycle", s.run().cycle()}};
 }
 
-json branch_off(Session& s, const Request& r) {
-    const auto assignments = r.texts("assignments");
-    if (assignments.empty()) throw InputError("there is nothing to set");
-    inverse(s, assignments);
-    seek_cycle(s, r);
-    return set_parameters(s, assignments,
-                          fmt::format("from cycle {}: {}", s.run().cycle(), assignments.front()));
-}
-
 json begin_comparison(Session& s, const Request& r) {
     const auto cycle = past_cycle(s, r);
     const auto assignments = r.texts("assignments");
@@ -67,7 +58,6 @@ json forget_killed(Session& s, const Request&) {
 }  // namespace
 
 std::vector<Command> past_commands() {
-    const Member assignments{"assignments", list(text())};
     const std::string cycle = "{ cycle: number }";
     return {
         {.name = "history",
@@ -87,12 +77,6 @@ std::vector<Command> past_commands() {
          .result = cycle,
          .changes_run = true,
          .apply = seek_cycle},
-        {.name = "branch",
-         .doc = "`seek` and `set`. What came later is forgotten.",
-         .arguments = {{"cycle", whole()}, assignments},
-         .result = "{ generation: number }",
-         .changes_run = true,
-         .apply = branch_off},
         {.name = "compare",
          .doc =
              "`seek`, and a second run in step with the run, which repeats what the run did or would do "

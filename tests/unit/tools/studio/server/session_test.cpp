@@ -284,7 +284,8 @@ TEST_CASE("an action in the past forgets what came later") {
     std::string name;
     for (const auto& p : found["parameters"])
         if (p["kind"] == "real") name = p["assignment"];
-    f.result({{"command", "branch"}, {"cycle", 300}, {"assignments", {name + "=0.75"}}});
+    f.result({{"command", "seek"}, {"cycle", 300}});
+    f.result({{"command", "set"}, {"assignments", {name + "=0.75"}}});
     CHECK(f.session.run().cycle() == 300);
     const json history = f.result({{"command", "history"}});
     CHECK(history["last"] == 300);

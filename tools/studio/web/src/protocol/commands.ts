@@ -217,11 +217,6 @@ export interface Commands {
     arguments: { cycle: number; generation?: number | null };
     result: { cycle: number };
   };
-  /** `seek` and `set`. What came later is forgotten. */
-  branch: {
-    arguments: { cycle: number; assignments: string[]; generation?: number | null };
-    result: { generation: number };
-  };
   /** `seek`, and a second run in step with the run, which repeats what the run did or would do without further actions; then `set`. `seek` moves both; before `cycle` it ends the second run. */
   compare: {
     arguments: { cycle?: number | null; assignments?: string[] | null; generation?: number | null };
