@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <limits>
 
 #include "core/base/simd.h"
+#include "core/formula/operations.h"
 
 namespace forage::equations {
 namespace {
@@ -52,128 +52,15 @@ FORAGE_SIMD void execute(const Program::Instruction* first, const Program::Instr
             each_pair(scalar, n, to, a, b, [&](double x, double y, Index k) { return x * y + c[k]; });
             continue;
         }
-        switch (i->op) {
-            case Op::number:
-            case Op::name:
-                break;
-            case Op::add:
-                each_pair(scalar, n, to, a, b, [](double x, double y, Index) { return x + y; });
-                break;
-            case Op::subtract:
-                each_pair(scalar, n, to, a, b, [](double x, double y, Index) { return x - y; });
-                break;
-            case Op::multiply:
-                each_pair(scalar, n, to, a, b, [](double x, double y, Index) { return x * y; });
-                break;
-            case Op::divide:
-                each_pair(scalar, n, to, a, b, [](double x, double y, Index) { return x / y; });
-                break;
-            case Op::power:
-                each_pair(scalar, n, to, a, b, [](double x, double y, Index) { return power(x, y); });
-                break;
-            case Op::negative:
-                each(n, to, [&](Index k) { return -a[k]; });
-                break;
-            case Op::less:
-                each_pair(scalar, n, to, a, b, [](double x, double y, Index) { return x < y ? 1.0 : 0.0; });
-                break;
-            case Op::at_most:
-                each_pair(scalar, n, to, a, b, [](double x, double y, Index) { return x <= y ? 1.0 : 0.0; });
-                break;
-            case Op::more:
-                each_pair(scalar, n, to, a, b, [](double x, double y, Index) { return x > y ? 1.0 : 0.0; });
-                break;
-            case Op::at_least:
-                each_pair(scalar, n, to, a, b, [](double x, double y, Index) { return x >= y ? 1.0 : 0.0; });
-                break;
-            case Op::equal:
-                each_pair(scalar, n, to, a, b, [](double x, double y, Index) { return x == y ? 1.0 : 0.0; });
-                break;
-            case Op::unequal:
-                each_pair(scalar, n, to, a, b, [](double x, double y, Index) { return x != y ? 1.0 : 0.0; });
-                break;
-            case Op::both:
-                each_pair(scalar, n, to, a, b,
-                          [](double x, double y, Index) { return ((x != 0) & (y != 0)) ? 1.0 : 0.0; });
-                break;
-            case Op::either:
-                each_pair(scalar, n, to, a, b,
-                          [](double x, double y, Index) { return ((x != 0) | (y != 0)) ? 1.0 : 0.0; });
-                break;
-            case Op::inverse:
-                each(n, to, [&](Index k) { return a[k] == 0 ? 1.0 : 0.0; });
-                break;
-            case Op::minimum:
-                each_pair(scalar, n, to, a, b, [](double x, double y, Index) { return y < x ? y : x; });
-                break;
-            case Op::maximum:
-                each_pair(scalar, n, to, a, b, [](double x, double y, Index) { return x < y ? y : x; });
-                break;
-            case Op::absolute:
-                each(n, to, [&](Index k) { return std::abs(a[k]); });
-                break;
-            case Op::exponential:
-                each(n, to, [&](Index k) { return std::exp(a[k]); });
-                break;
-            case Op::logarithm:
-                each(n, to, [&](Index k) { return std::log(a[k]); });
-                break;
-            case Op::root:
-                each(n, to, [&](Index k) { return std::sqrt(a[k]); });
-                break;
-            case Op::sine:
-                each(n, to, [&](Index k) { return std::sin(a[k]); });
-                break;
-            case Op::cosine:
-                each(n, to, [&](Index k) { return std::cos(a[k]); });
-                break;
-            case Op::hyperbolic_tangent:
-                each(n, to, [&](Index k) { return std::tanh(a[k]); });
-                break;
-            case Op::clip:
-                each(n, to, [&](Index k) {
-                    const double low = a[k] < b[k] ? b[k] : a[k];
-                    return c[k] < low ? c[k] : low;
-                });
-                break;
-            case Op::floor:
-                each(n, to, [&](Index k) { return std::floor(a[k]); });
-                break;
-            case Op::round:
-                each(n, to, [&](Index k) { return std::round(a[k]); });
-                break;
-            case Op::choice:
-                each(n, to, [&](Index k) {
-                    const double yes = b[k], no = c[k];  // loads without a condition
-                    return a[k] != 0 ? yes : no;
-                });
-                break;
-        }
-    }
-}
-
-int operands(Op op) {
-    switch (op) {
-        case Op::number:
-        case Op::name:
-            return 0;
-        case Op::negative:
-        case Op::inverse:
-        case Op::absolute:
-        case Op::exponential:
-        case Op::logarithm:
-        case Op::root:
-        case Op::sine:
-        case Op::cosine:
-        case Op::hyperbolic_tangent:
-        case Op::floor:
-        case Op::round:
-            return 1;
-        case Op::clip:
-        case Op::choice:
-            return 3;
-        default:
-            return 2;
+        const auto compute = [&](auto f) __attribute__((always_inline)) {
+            if constexpr (operands_of<decltype(f)> == 1)
+                each(n, to, [&](Index k) { return f(a[k]); });
+            else if constexpr (operands_of<decltype(f)> == 2)
+                each_pair(scalar, n, to, a, b, [&](double x, double y, Index) { return f(x, y); });
+            else
+                each(n, to, [&](Index k) { return f(a[k], b[k], c[k]); });
+        };
+        with_operation(i->op, compute);
     }
 }
 
