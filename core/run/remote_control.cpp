@@ -21,41 +21,34 @@ constexpr int max_per_cycle = 64;
 constexpr std::size_t max_kept = 1000;
 constexpr int wait_ms = 100;
 
-/// An item that a command means, with the type that has its parameters; null for an item without one.
+/// An item that a command means, and its use of a type; null for an item without one.
 struct Meant {
     Owner owner;
     const std::string* id;
-    const std::vector<Parameter>* parameters;
+    const model::TypeUse* use;
 };
-
-template <class Type>
-const std::vector<Parameter>* parameters_of(const Type* type) {
-    return type ? &type->parameters : nullptr;
-}
 
 std::vector<Meant> items_of(const RemoteCommand& command, const Run& run) {
     std::vector<Meant> out;
     const auto meant = [&](const auto& item) {
         return command.by_id ? item.id == command.name : model::trim(item.name) == model::trim(command.name);
     };
-    const Registry& types = run.registry();
     for (const auto& p : run.system().processes) {
         if (command.item == RemoteCommand::Item::process && meant(p))
-            out.push_back(
-                {Owner::process, &p.id, p.module ? parameters_of(types.module(p.module->type)) : nullptr});
+            out.push_back({Owner::process, &p.id, p.module ? &*p.module : nullptr});
         for (const auto& g : p.groups)
             if (command.item == RemoteCommand::Item::group && meant(g))
-                out.push_back({Owner::group, &g.id, parameters_of(types.neuron(g.neuron.type))});
+                out.push_back({Owner::group, &g.id, &g.neuron});
     }
     for (const auto& c : run.system().connections)
         if (command.item == RemoteCommand::Item::connection && meant(c))
-            out.push_back({Owner::connection, &c.id,
-                           c.synapse ? parameters_of(types.synapse(c.synapse->type)) : nullptr});
+            out.push_back({Owner::connection, &c.id, c.synapse ? &*c.synapse : nullptr});
     return out;
 }
 
-/// The parameter with this name or, when none has it, this label.
-const Parameter* find_parameter(const std::vector<Parameter>* all, const std::string& name) {
+/// The parameter of an item with this name or, when none has it, this label.
+const Parameter* find_parameter(const Meant& item, const Registry& types, const std::string& name) {
+    const auto* all = item.use ? model::parameters_of(types, item.owner, item.use->type) : nullptr;
     if (!all) return nullptr;
     for (const auto member : {&Parameter::name, &Parameter::label})
         for (const auto& p : *all)
@@ -71,7 +64,7 @@ void RemoteControl::set_parameter(const RemoteCommand& command, Run& run, Diagno
         return diagnostics.error({}, fmt::format("nothing of this type is called '{}'", command.name));
     std::vector<model::Assignment> changes;
     for (const auto& item : items) {
-        const Parameter* p = find_parameter(item.parameters, command.parameter);
+        const Parameter* p = find_parameter(item, run.registry(), command.parameter);
         if (!p) {
             diagnostics.error({}, fmt::format("'{}' has no parameter '{}'", command.name, command.parameter));
             continue;
