@@ -211,7 +211,7 @@ class ManipulationReader {
             const auto table = DriveTable::read(spec.table.text);
             for (const auto& row : table.rows())
                 for (const int group : groups_of(row, {table.file(), row.line, row.column})) {
-                    const auto& [path, id, shape, type] = layout_.groups[group];
+                    const auto& [path, id, shape, type, names] = layout_.groups[group];
                     if (row.values.size() != static_cast<std::size_t>(shape.cells)) {
                         auto error = DriveTable::size_error(row, path, shape);
                         error.where.file = table.file();

@@ -30,6 +30,7 @@
 #include "core/base/column.h"
 #include "core/base/diagnostic.h"
 #include "core/base/random.h"
+#include "core/types/cell_names.h"
 #include "core/types/members.h"
 #include "core/types/parameter.h"
 #include "core/types/type_error.h"
@@ -114,6 +115,9 @@ struct ModulePort {
     bool optional = false;   ///< may be absent or unset; the original refuses a system with an unset one
     std::string doc;         ///< sentences that say what the cells mean
     SizeRule size;
+    /// What the cells of its group stand for; null: nothing is known. `module` holds the parameters.
+    std::function<CellNames(const void* module, const ModulePorts&, const GroupShape&)> names = {};
+    std::string like = {};  ///< another port, whose cells stand for the same
 };
 
 /// A full rectangle of cells. Sides and areas above 2^31 - 1 become that number.
@@ -211,8 +215,10 @@ class PortBuilder {
             return rectangle(given.width, given.height);
         });
     }
-    /// The group has the size of the group at another port, as PortSizes finds it.
+    /// The group has the size of the group at another port, as PortSizes finds it, and cells that stand for
+    /// the same.
     PortBuilder& same_size_as(std::string other) {
+        port().like = other;
         std::string text = "the size of '" + other + "'";
         return size(std::move(text), [other = std::move(other)](const T&, PortSizes& of, const GroupShape&) {
             const GroupShape shape = of[other];
@@ -228,6 +234,22 @@ class PortBuilder {
             return nearest(*static_cast<const T*>(module), of, given);
         };
         return *this;
+    }
+    /// What the cells stand for: `names(module, ports, shape)` returns CellNames.
+    template <class Names>
+    requires requires(const Names& f, const T& m, const ModulePorts& p, const GroupShape& s) { f(m, p, s); }
+    PortBuilder& names(Names names) {
+        port().names = [names = std::move(names)](const void* module, const ModulePorts& ports,
+                                                  const GroupShape& shape) -> CellNames {
+            return names(*static_cast<const T*>(module), ports, shape);
+        };
+        return *this;
+    }
+    /// A name for each cell of a row, or of a column when the group has only one.
+    PortBuilder& names(std::vector<std::string> all) {
+        return names([all = std::move(all)](const T&, const ModulePorts&, const GroupShape& shape) {
+            return shape.width > 1 || all.size() == 1 ? CellNames{.columns = all} : CellNames{.rows = all};
+        });
     }
     /// Sizes that the original accepts although they do not fit: `accepts(sizes, given)`.
     template <class Accepts>

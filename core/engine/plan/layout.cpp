@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "core/engine/plan/cell_names.h"
 #include "core/model/lookup.h"
 #include "core/model/validate.h"
 
@@ -86,6 +87,7 @@ std::optional<Layout> make_layout(const model::System& system, const Registry& r
         out.connections.push_back({c->id, c->name, *registry.synapse(model::synapse_of(*c).type),
                                    static_cast<InputKind>(kind), source, target, state, to.reads[kind]});
     }
+    name_cells(system, environment, out);
     return out;
 }
 

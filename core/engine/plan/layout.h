@@ -18,6 +18,7 @@ struct Layout {
         std::string id;
         GroupShape shape;
         NeuronType type;
+        CellNames names = {};  ///< what its cells stand for, as far as that is known
     };
     /// A module that is enabled.
     struct Module {
