@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -24,6 +25,23 @@ std::string Recorded::cell_name(std::size_t i) const {
     if (numbered) return fmt::format("cell{}", static_cast<std::size_t>(cells.x) + i);
     const int n = static_cast<int>(i);
     return fmt::format("x{}_y{}", cells.x + n % cells.width, cells.y + n / cells.width);
+}
+
+std::vector<std::string> Recorded::titles() const {
+    if (one_number()) return {std::string(reduction)};
+    std::vector<std::string> out, places;
+    std::map<std::string, int> count;
+    for (int i = 0; i < static_cast<int>(size()); ++i) {
+        const int x = cells.x + i % cells.width, y = cells.y + i / cells.width;
+        places.push_back(numbered ? fmt::format("cell {}", x) : fmt::format("({}, {})", x, y));
+        ++count[out.emplace_back(numbered || synapses ? std::string() : names.of(x, y))];
+    }
+    for (std::size_t i = 0; i < out.size(); ++i)
+        if (out[i].empty())
+            out[i] = places[i];
+        else if (count[out[i]] > 1)
+            out[i] += " " + places[i];
+    return out;
 }
 
 namespace {
@@ -186,7 +204,7 @@ std::optional<Part> find_synapse_part(const engine::Layout& layout, const Column
 
 std::optional<Part> find_part(const engine::Layout& layout, const ColumnRef& column,
                               const expression::Source& source, const expression::Context& context) {
-    const auto& [path, id, shape, type] = layout.groups[column.group];
+    const auto& [path, id, shape, type, names] = layout.groups[column.group];
     static constexpr std::string_view inputs[] = {"Excitation", "Inhibition", "Modulation"};
 
     const auto kind = static_cast<std::size_t>(column.kind);
@@ -202,7 +220,7 @@ std::optional<Part> find_part(const engine::Layout& layout, const ColumnRef& col
     whole.state = column.name.substr(column.name.rfind(':') + 1);
     whole.numbered = shape.cells != shape.width * shape.height;
     whole.cells = {1, 1, whole.numbered ? shape.cells : shape.width, whole.numbered ? 1 : shape.height, {}};
-    whole.group_width = whole.cells.width;
+    whole.group_width = whole.cells.width, whole.names = names;
 
     auto part = part_of(whole, source);
     if (!part) {

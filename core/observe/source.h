@@ -9,6 +9,7 @@
 
 #include "core/model/pattern.h"
 #include "core/observe/column.h"
+#include "core/types/cell_names.h"
 
 namespace forage::observe {
 
@@ -22,6 +23,7 @@ struct Recorded {
     bool numbered = false;               ///< whether the cells have no places
     std::string_view reduction = {};     ///< "mean" or "max": the row is this one number of the cells
     bool synapses = false;               ///< whether it is a matrix of synapses; unknown in files
+    CellNames names = {};                ///< of the whole group's cells
 
     bool one_number() const { return !reduction.empty(); }
     std::size_t size() const {
@@ -30,6 +32,9 @@ struct Recorded {
     }
     /// The name of the i-th number: "x3_y1", "cell3", "mean" or "max".
     std::string cell_name(std::size_t i) const;
+    /// What the numbers are, for people: the names of the cells, or "(3, 1)", column and row. Cells of the
+    /// same name have both.
+    std::vector<std::string> titles() const;
 };
 
 /// Some numbers of a row, or their mean or maximum.

@@ -154,7 +154,8 @@ Recordings::Recordings(std::vector<RecordingFile> files, const RecordOptions& op
         observe::RowFileHeader header{{}, f.every, attributes};
         for (const auto& s : f.sources) {
             header.sources.push_back(s.what());
-            entries_.push_back({f.archive.empty() ? f.name : f.archive, s.what().name, s.what().label});
+            entries_.push_back(
+                {f.archive.empty() ? f.name : f.archive, s.what().name, s.what().label, s.what().names});
         }
         std::string path = directory + "/" + f.name;
         all_.push_back({std::move(f), std::move(path), std::move(header), std::nullopt});

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/base/diagnostic.h"
+#include "core/types/cell_names.h"
 
 namespace forage {
 
@@ -35,6 +36,7 @@ class ResultFiles {
     /// A recording file and its content, for run.json.
     struct Recording {
         std::string file, source, label;
+        CellNames names = {};
     };
     void add_recording(Recording recording) { recordings_.push_back(std::move(recording)); }
 

@@ -65,6 +65,15 @@ Json settings_json(const RunSpec& o, const Run& run, const std::vector<std::stri
     return json;
 }
 
+/// What the cells of a recorded group stand for.
+Json cells_json(const CellNames& names) {
+    return {{"columns", names.columns}, {"rows", names.rows}, {"column", names.column}, {"row", names.row}};
+}
+CellNames names_in(const Json& json) {
+    return {json.value("columns", std::vector<std::string>()), json.value("rows", std::vector<std::string>()),
+            json.value("column", ""), json.value("row", "")};
+}
+
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> run_attributes(
@@ -112,8 +121,11 @@ std::string run_json(const PreparedRun& p, const RunOutcome& outcome) {
         if (run.simulation().pruned(static_cast<int>(g)))
             result["pruned"].push_back(run.layout().groups[g].path);
     result["files"] = outcome.files.names();
-    for (const auto& r : outcome.files.recordings())
-        result["recordings"].push_back({{"file", r.file}, {"source", r.source}, {"label", r.label}});
+    for (const auto& r : outcome.files.recordings()) {
+        auto& entry = result["recordings"].emplace_back();
+        entry = {{"file", r.file}, {"source", r.source}, {"label", r.label}};
+        if (r.names.any()) entry["cells"] = cells_json(r.names);
+    }
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -143,7 +155,8 @@ std::optional<FinishedRun> read_run_json(const std::string& directory) {
         for (const auto& f : result.value("files", Json::array()))
             if (f.get<std::string>() == file_name(f.get<std::string>())) out.files.push_back(f);
         for (const auto& r : result.value("recordings", Json::array()))
-            out.recordings.push_back({r.at("file"), r.at("source"), r.at("label")});
+            out.recordings.push_back(
+                {r.at("file"), r.at("source"), r.at("label"), names_in(r.value("cells", none))});
         for (const auto& [key, value] : json.items())
             if (key != "libraries" && key != "compiler" && key != "command" && key != "inputs" &&
                 key != "result")

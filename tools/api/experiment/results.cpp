@@ -53,7 +53,7 @@ void add_recording(const fs::path& path, const std::vector<ResultFiles::Recordin
         observe::Recorded what = rows->what();
         if (named.size() == 1 && all.size() == 1) what.name = named[0]->source;
         for (const auto* n : named)
-            if (n->source == what.name) what.label = n->label;
+            if (n->source == what.name) what.label = n->label, what.names = n->names;
         if (what.one_number() && what.name.starts_with("max:"))
             what.reduction = "max";  // a .npy file does not say which number it has
         what.synapses = is_of_synapses(what);

@@ -31,6 +31,22 @@ TEST_CASE("A part of a recording has its cells row by row") {
         CHECK_FALSE(part_of(recorded(4, 3), expression::parse_source(outside)));
 }
 
+TEST_CASE("Numbers are called what their cells stand for; those of the same name have their places, too") {
+    auto what = recorded(2, 2);
+    CHECK(what.titles() == std::vector<std::string>{"(1, 1)", "(2, 1)", "(1, 2)", "(2, 2)"});
+    what.names = {.columns = {"left", "right"}};
+    CHECK(what.titles() ==
+          std::vector<std::string>{"left (1, 1)", "right (2, 1)", "left (1, 2)", "right (2, 2)"});
+    what.names.rows = {"red", "blue"};
+    CHECK(part_of(what, expression::parse_source("P/G(2,1..2)"))->what.titles() ==
+          std::vector<std::string>{"red, right", "blue, right"});
+    what.names = {.column = "segment", .row = "sequence"};
+    CHECK(part_of(what, expression::parse_source("P/G(2,1)"))->what.titles() ==
+          std::vector<std::string>{"sequence 1, segment 2"});
+    CHECK(part_of(what, expression::parse_source("mean:P/G"))->what.titles() ==
+          std::vector<std::string>{"mean"});
+}
+
 TEST_CASE("The mean of cells is one number") {
     const auto part = part_of(recorded(2, 2), expression::parse_source("mean:P/G"));
     REQUIRE(part);
