@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <stdexcept>
 #include <utility>
@@ -46,6 +47,56 @@ std::string robots_of(const World& world, const std::string& name) {
     return names.empty() ? "the world has no robot: a robot is a model with a link 'bug' and the plugin "
                            "libvel_plugin.so"
                          : suggest(name, names);
+}
+
+/// The speeds that the rows and columns of a motor group stand for, as shares of the largest ones.
+CellNames motor_names(const GroupShape& shape) {
+    CellNames out;
+    const auto named = [](int i, int n, const char* before, const char* middle, const char* after) {
+        const int share = static_cast<int>(std::lround(100.0 * (n / 2 - i) / std::max(1, n / 2)));
+        return share == 0 ? middle : fmt::format("{} {} %", share > 0 ? before : after, std::abs(share));
+    };
+    for (int y = 0; y < shape.height; ++y)
+        out.rows.push_back(named(y, shape.height, "ahead", "on the spot", "back"));
+    for (int x = 0; x < shape.width; ++x)
+        out.columns.push_back(named(x, shape.width, "left", "straight", "right"));
+    return out;
+}
+
+/// An angle to the left of where the robot looks.
+std::string side_name(double angle) {
+    const int degrees = static_cast<int>(std::lround(angle * 180 / std::numbers::pi));
+    return degrees == 0 ? "ahead" : fmt::format("{} {}°", degrees > 0 ? "left" : "right", std::abs(degrees));
+}
+
+/// Where the rays of a sensor look, which the robot of the world says.
+auto rays_of(const char* sensor) {
+    return [sensor](const GazeboBug& module, const ModulePorts& ports, const GroupShape& shape) {
+        CellNames out;
+        const auto* world = dynamic_cast<const World*>(ports.environment);
+        const auto bug = world ? world->find(module.device_name) : std::nullopt;
+        if (!bug) return out;
+        for (const auto& s : world->robot(*bug).sensors.range_sensors())
+            if (s.name == sensor && s.rays == shape.cells)
+                for (int k = 0; k < s.rays; ++k) out.columns.push_back(side_name(s.cell_angle(k)));
+        return out;
+    };
+}
+
+/// The headings of head direction cells, while they are the points of a compass.
+CellNames heading_names(const GroupShape& shape) {
+    constexpr const char* compass[] = {"west", "south-west", "south", "south-east",
+                                       "east", "north-east", "north", "north-west"};
+    constexpr int points = std::size(compass);
+    const int n = shape.cells;
+    std::vector<std::string> out;
+    for (int k = 0; k < n; ++k)
+        out.push_back(points * k % n == 0
+                          ? compass[points * k / n]
+                          : fmt::format("heading {:.3g}°", std::fmod(540 + 360.0 * k / n, 360)));
+    if (shape.width == n) return {.columns = out};
+    if (shape.height == n) return {.rows = out};
+    return {};
 }
 
 }  // namespace
@@ -132,7 +183,8 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
         .doc(
             "The most active cell is the velocity, whatever its activity. Rows: top transSpeed, middle 0, "
             "bottom -transSpeed. Columns: left rotSpeed (a left turn), middle 0, right -rotSpeed. No active "
-            "cell, or all cells equal: the robot stops.");
+            "cell, or all cells equal: the robot stops.")
+        .names([](const auto&, const ModulePorts&, const GroupShape& shape) { return motor_names(shape); });
     s.input("_gripper", "Gripper")
         .optional()
         .size("1 cell if 'gripper' is true",
@@ -149,21 +201,28 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
         .size(32, 1)
         .doc(
             "One cell per ray of the sensor 'laser', from left to right: 1 - distance / range, or 0 if "
-            "nothing is in range.");
+            "nothing is in range.")
+        .names(rays_of("laser"));
     s.output("_target", "Target sensor")
         .optional()
         .size(32, 1)
-        .doc("The same for the sensor 'laser_target', which sees the light.");
+        .doc("The same for the sensor 'laser_target', which sees the light.")
+        .names(rays_of("laser_target"));
     s.output("_proximityGripper", "Gripper proximity sensor")
         .optional()
         .size("16 x 1 cells if 'gripper' is true",
               [](const GazeboBug& module, PortSizes&, const GroupShape& given) {
                   return module.gripper ? rectangle(16, 1) : given;
               })
-        .doc("The same for the sensor 'laser_gripper' between the fingers; the outer cells see the palm.");
+        .doc("The same for the sensor 'laser_gripper' between the fingers; the outer cells see the palm.")
+        .names(rays_of("laser_gripper"));
     s.output("_gps", "GPS")
         .optional()
         .size(3, 1)
+        .names([](const GazeboBug& module, const ModulePorts&, const GroupShape&) {
+            return CellNames{.columns = {fmt::format("x + {} m", module.place_x_max),
+                                         fmt::format("y + {} m", module.place_y_max), "heading + pi"}};
+        })
         .doc(
             "The place, x + placeXMax and y + placeYMax in m, and heading + pi in rad (0 to 2 pi; east is "
             "pi).");
@@ -193,6 +252,7 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
             "from placeYMax (top) to -placeYMax.");
     s.output("headCell", "Head direction cells")
         .optional()
+        .names([](const auto&, const ModulePorts&, const GroupShape& shape) { return heading_names(shape); })
         .doc("The heading: cell 1 of n is west, n/4 + 1 south, n/2 + 1 east, 3n/4 + 1 north.");
     s.output("_audio_in", "Listen")
         .optional()
@@ -201,6 +261,7 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
     s.output("_trial", "Trial")
         .optional()
         .size(2, 1)
+        .names({"target reached", "between trials"})
         .doc(
             "Cell 1: 1 in the cycle after a trial that reached a target. Cell 2: 1 from the end of a trial "
             "to the beginning of the next one. Not delayed by --latency.");

@@ -14,6 +14,8 @@ namespace {
 enum In : std::size_t { gps_in, mate_in, predator_in, proximity_in };
 enum Out : std::size_t { needs_out, forces_out, views_out, motor_out, time_out, errors_out, balance_out };
 
+const std::vector<std::string> need_names = {"temperature", "hydration", "energy", "security", "mating"};
+
 constexpr std::uint32_t draw_noise = 0, draw_steering = 16, draw_control = 32;
 
 }  // namespace
@@ -73,27 +75,36 @@ void AllostasisModule::describe(ModuleSpec<AllostasisModule>& s) {
     s.output("needs", "Needs")
         .optional()
         .cells(needs)
+        .names(need_names)
         .doc("Internal states, 0 to 1: temperature, hydration, energy, security, mating.");
     s.output("forces", "Forces")
         .optional()
         .cells(needs)
+        .names(need_names)
         .doc("Force of each drive, 0 to 1, in the same order.");
     s.output("views", "Views")
         .optional()
         .size(4, needs)
+        .names([](const auto&, const ModulePorts&, const GroupShape&) {
+            return CellNames{.columns = {"north-west", "north-east", "south-west", "south-east"},
+                             .rows = need_names};
+        })
         .doc("What is sensed of each field, 0 to 1. Row: need; column: NW, NE, SW, SE of the robot.");
     describe_motor(s);
     s.output("time", "Time")
         .optional()
         .cells(2)
+        .names({"step of the day", "mean temperature"})
         .doc("Step of the day, 0 to 1, and mean temperature, 0 to 1.");
     s.output("errors", "Errors")
         .optional()
         .cells(needs)
+        .names(need_names)
         .doc("Homeostatic errors, 1 - state, 0 to 1, in the same order.");
     s.output("balance", "Balance")
         .optional()
         .cells(3)
+        .names({"efficiency", "fairness", "stability"})
         .doc(
             "Efficiency (mean of the states), fairness (1 - largest + smallest), stability (1 - mean of the "
             "squared errors).");

@@ -1,6 +1,11 @@
 #include "modules/colour/module.h"
 
+#include <algorithm>
 #include <cstring>
+#include <iterator>
+#include <string>
+
+#include <fmt/format.h>
 
 namespace forage::colour {
 namespace {
@@ -8,6 +13,14 @@ namespace {
 /// Compares the bits, which is fast.
 bool same(const double* a, const Eigen::ArrayXd& b) {
     return std::memcmp(a, b.data(), static_cast<std::size_t>(b.size()) * sizeof *a) == 0;
+}
+
+/// The hue in the middle of bin `b` of `n`.
+std::string hue_name(int b, int n) {
+    constexpr const char* wheel[] = {"red",  "orange",   "yellow", "yellow-green", "green",   "green-cyan",
+                                     "cyan", "sky blue", "blue",   "violet",       "magenta", "pink"};
+    constexpr int named = std::size(wheel);
+    return named * b % n == 0 ? wheel[named * b / n] : fmt::format("hue {:.3g}°", 360.0 * b / n);
 }
 
 }  // namespace
@@ -28,7 +41,13 @@ void ColourModule::describe(ModuleSpec<ColourModule>& s) {
               })
         .doc(
             "One picture per bin of hues, from top to bottom; bin b of n, counted from 0, has its middle at "
-            "b/n. A picture holds the values of the pixels whose hue is in its bin, and 0 elsewhere.");
+            "b/n. A picture holds the values of the pixels whose hue is in its bin, and 0 elsewhere.")
+        .names([](const auto&, const ModulePorts& ports, const GroupShape& shape) {
+            const int height = std::max(1, ports.inputs[0].shape.height), bins = shape.height / height;
+            CellNames out;
+            for (int y = 0; y < bins * height; ++y) out.rows.push_back(hue_name(y / height, bins));
+            return out;
+        });
 }
 
 void ColourModule::start(const ModulePorts& ports) {

@@ -65,6 +65,10 @@ void ContextualLayerModule::describe(ModuleSpec<ContextualLayerModule>& s) {
               [](const auto&, PortSizes&, const GroupShape& given) {
                   return given.cells >= 2 ? given : rectangle(2, 1);
               })
+        .names([](const auto&, const ModulePorts&, const GroupShape& shape) {
+            return shape.height > 1 ? CellNames{.rows = {"success", "failure"}}
+                                    : CellNames{.columns = {"success", "failure"}};
+        })
         .doc(
             "Cell 1 is active when a positive goal is reached, cell 2 when a negative one is; others have no "
             "effect.");
@@ -91,6 +95,9 @@ void ContextualLayerModule::describe(ModuleSpec<ContextualLayerModule>& s) {
                       const bool fits = given.cells == memory.cells || (larger && given.cells > memory.cells);
                       return fits ? given : memory;
                   })
+            .names([](const auto&, const ModulePorts&, const GroupShape&) {
+                return CellNames{.column = "segment", .row = "sequence"};
+            })
             .doc(std::string(doc) + " Row: sequence; column: segment, the last before the goal first.");
     };
     picture("empty", "Empty", "1 for each unused segment of the memory.", true);

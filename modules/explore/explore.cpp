@@ -24,7 +24,10 @@ void ExploreModule::describe(ModuleSpec<ExploreModule>& s) {
         .doc(
             "Cell 2 is above 0 between trials, as in '_trial' of moduleGazeboBug. An interval begins when a "
             "trial ends.");
-    s.output("action", "Action").cells(3).doc("1 at the action: ahead, left or right.");
+    s.output("action", "Action")
+        .cells(3)
+        .names({"ahead", "left", "right"})
+        .doc("1 at the action: ahead, left or right.");
 }
 
 void ExploreModule::check(const ModulePorts&, Diagnostics& diagnostics) const {

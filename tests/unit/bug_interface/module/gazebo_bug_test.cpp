@@ -115,6 +115,29 @@ TEST_CASE("The module type has the original's names and defaults") {
     CHECK(registry.module("moduleGazeboBug"));
 }
 
+TEST_CASE("The cells of its groups have names: what they command, and where they look") {
+    const auto world = test::make_world(test::description("basic_arena"));
+    Bench bench(world.get());
+    const auto names = [&](const std::string& port, GroupShape shape) {
+        for (const auto& p : bench.type.ports)
+            if (p.name == port) return p.names(bench.module->parameters(), bench.ports, shape);
+        return CellNames();
+    };
+    const auto motor = names("_motor", shape(9, 9));
+    CHECK(motor.of(5, 1) == "ahead 100 %, straight");
+    CHECK(motor.of(1, 4) == "ahead 25 %, left 100 %");
+    CHECK(motor.of(9, 5) == "on the spot, right 100 %");
+    CHECK(motor.of(7, 9) == "back 100 %, right 50 %");
+    const auto light = names("_target", shape(32, 1));
+    CHECK(light.columns.size() == 32);
+    CHECK(light.of(1, 1).starts_with("left 1"));
+    CHECK(light.of(32, 1).starts_with("right 1"));
+    CHECK(names("_gps", shape(3, 1)).of(2, 1) == "y + 10 m");
+    CHECK(names("headCell", shape(8, 1)).of(3, 1) == "south");
+    bench.ports.environment = nullptr;
+    CHECK_FALSE(names("_target", shape(32, 1)).any());
+}
+
 TEST_CASE("The module accepts the groups of the tutorials") {
     const auto world = test::make_world(test::description("basic_arena"));
     Bench bench(world.get());
