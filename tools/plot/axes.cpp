@@ -48,6 +48,12 @@ std::string Ticks::name(double value) const {
     return fmt::format("{:.{}f}", value, decimals);
 }
 
+std::string moment_text(std::uint64_t cycle, double seconds_per_cycle) {
+    if (!(seconds_per_cycle > 0)) return fmt::format("cycle {}", cycle);
+    const double seconds = std::round(static_cast<double>(cycle) * seconds_per_cycle * 100) / 100;
+    return fmt::format("{} s (cycle {})", seconds, cycle);
+}
+
 void draw_titles(Canvas& canvas, const std::string& title, const std::string& subtitle) {
     canvas.text(12, 22, title, 15, 0, black, true);
     canvas.text(12, 40, subtitle, 12, 0, grey);
@@ -67,6 +73,15 @@ void draw_frame(Canvas& canvas, const Box& box, const Colour& colour) {
     canvas.colour(colour);
     cairo_rectangle(canvas.cairo(), box.x - 0.5, box.y - 0.5, box.width + 1, box.height + 1);
     cairo_stroke(canvas.cairo());
+}
+
+std::vector<std::pair<double, std::string>> name_ticks(const std::vector<std::string>& names, double first) {
+    std::vector<std::pair<double, std::string>> out;
+    for (std::size_t i = 0, end = 0; i < names.size(); i = end) {
+        while (end < names.size() && names[end] == names[i]) ++end;
+        out.emplace_back(first + static_cast<double>(i + end - 1) / 2, names[i]);
+    }
+    return out;
 }
 
 void draw_axes(Canvas& canvas, const Axes& axes, const AxisStyle& x, const AxisStyle& y) {

@@ -1,6 +1,7 @@
 // Axes, ticks and colour bars.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -28,6 +29,9 @@ class Ticks {
     double step_;
     std::vector<double> at_;
 };
+
+/// A moment of a run: "12.4 s (cycle 310)". Only the cycle when the time of a cycle is not known, or 0.
+std::string moment_text(std::uint64_t cycle, double seconds_per_cycle);
 
 /// A rectangle on the canvas.
 struct Box {
@@ -64,6 +68,9 @@ struct AxisStyle {
     bool named = true;                                       ///< whether ticks have labels
     std::vector<std::pair<double, std::string>> ticks = {};  ///< places and labels, instead of round numbers
 };
+
+/// Ticks with the names of things that are numbered from `first` on. Neighbours of the same name share one.
+std::vector<std::pair<double, std::string>> name_ticks(const std::vector<std::string>& names, double first);
 
 /// Draws the frame, the ticks with labels, and the titles.
 void draw_axes(Canvas& canvas, const Axes& axes, const AxisStyle& x, const AxisStyle& y);

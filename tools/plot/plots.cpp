@@ -27,17 +27,10 @@ RowPlot::RowPlot(PlotSpec spec, const observe::Recorded& what, const model::Syst
     if (spec_.kind != PlotSpec::Kind::time) return;
     const bool as_lines = what_.size() <= max_lines;
     cells_per_row_ = (what_.size() + max_rows - 1) / max_rows;
-    for (std::size_t i = 0; i < what_.size(); i += cells_per_row_) {
-        if (!as_lines) {  // rows have no labels
-            curves_.emplace_back("", row_bins);
-            continue;
-        }
-        const int n = static_cast<int>(i);
-        curves_.emplace_back(what_.one_number() ? std::string(what_.reduction)
-                             : what_.numbered   ? fmt::format("cell {}", what_.cells.x + n)
-                                              : fmt::format("({}, {})", what_.cells.x + n % what_.cells.width,
-                                                            what_.cells.y + n / what_.cells.width));
-    }
+    if (as_lines)
+        for (const auto& title : what_.titles()) curves_.emplace_back(title);
+    else  // rows have no labels
+        for (std::size_t i = 0; i < what_.size(); i += cells_per_row_) curves_.emplace_back("", row_bins);
 }
 
 void RowPlot::add(std::uint64_t cycle, std::span<const double> numbers) {
@@ -101,9 +94,18 @@ Picture RowPlot::picture(const PlotContext& context) const {
         const model::Region& cells = what_.cells;
         const bool places = cells.height > 1 && !what_.numbered;
         const bool pairs = places || (what_.size() <= max_lines && !what_.numbered);
-        p.cells = what_.synapses ? "synapse (source, target)" : pairs ? "cell (column, row)" : "cell";
+        const bool named = what_.names.any() && !what_.synapses && !what_.numbered;
+        p.cells = what_.synapses    ? "synapse (source, target)"
+                  : pairs && !named ? "cell (column, row)"
+                                    : "cell";
         if (!places) p.first_cell = cells.x;
-        for (int row = 0; places && row < cells.height; ++row)
+        if (named) {
+            std::vector<std::string> names;
+            for (int i = 0; i < cells.width * cells.height; ++i)
+                names.push_back(what_.names.of(cells.x + i % cells.width, cells.y + i / cells.width));
+            p.cell_ticks = name_ticks(names, p.first_cell);
+        }
+        for (int row = 0; !named && places && row < cells.height; ++row)
             p.cell_ticks.emplace_back(1 + row * cells.width, fmt::format("({}, {})", cells.x, cells.y + row));
         p.curves = curves_;
         p.cells_per_row = cells_per_row_;
@@ -125,7 +127,9 @@ SpacePlot RowPlot::space(const PlotContext& context) const {
               what_.one_number() ? 1 : what_.cells.width,
               what_.one_number() ? 1 : what_.cells.height,
               what_.numbered,
-              what_.synapses};
+              what_.synapses,
+              what_.one_number() ? CellNames() : what_.names};
+    p.seconds_per_cycle = context.seconds_per_cycle;
     p.blocks_across = spec_.blocks_across, p.blocks_down = spec_.blocks_down;
     p.frames = frames_;
     return p;

@@ -19,11 +19,14 @@ ColourScale scale_of(const SpacePlot& plot) {
 
 /// The layout of the sheet, in pixels.
 struct PanelSheet {
-    static constexpr double left = 66, top = 76, bar = 16, bar_gap = 22, bottom = 46;
+    static constexpr double top = 76, bar = 16, bar_gap = 22, bottom = 46;
     int across, down;
+    double left = 66;
     double step_x, step_y, panel_width, panel_height, panels_width, panels_height, width, height;
 
-    PanelSheet(const CellGrid& grid, std::size_t frames) {
+    /// `names` is the width of the names of rows.
+    PanelSheet(const CellGrid& grid, std::size_t frames, double names) {
+        if (frames == 1) left += std::max(0.0, names - 20);
         const auto n = static_cast<int>(frames);
         const CellSize cell = n == 1 ? cell_size(grid.width, grid.height, 640, 480, 48, 20)
                                      : cell_size(grid.width, grid.height, 210, 170, 20, 20);
@@ -49,10 +52,30 @@ struct PanelSheet {
     }
 };
 
-const char* name_across(const CellGrid& g) {
-    return g.synapses ? "source cell" : g.numbered ? "cell" : "column of cells";
+/// The names of the columns while these are few, or what all columns are.
+std::string name_across(const CellGrid& g) {
+    constexpr int max_named = 9;
+    if (g.synapses) return "source cell";
+    if (g.numbered) return "cell";
+    if (g.names.columns.empty() || g.width > max_named)
+        return g.names.column.empty() ? "column of cells" : g.names.column;
+    std::string out;
+    for (int x = g.x; x < g.x + g.width && x <= std::ssize(g.names.columns); ++x)
+        out += fmt::format("{}{} {}", out.empty() ? "" : ", ", x,
+                           g.names.columns[static_cast<std::size_t>(x - 1)]);
+    return out;
 }
-const char* name_down(const CellGrid& g) { return g.synapses ? "target cell" : g.numbered ? "" : "row"; }
+std::string name_down(const CellGrid& g) {
+    if (g.synapses) return "target cell";
+    return g.numbered ? "" : g.names.row.empty() ? "row" : g.names.row;
+}
+
+/// The names of the rows, for the ticks of a single panel.
+std::vector<std::string> row_names(const CellGrid& g) {
+    const auto& all = g.names.rows;
+    if (g.synapses || g.numbered || std::ssize(all) < g.y - 1 + g.height) return {};
+    return {all.begin() + g.y - 1, all.begin() + g.y - 1 + g.height};
+}
 
 void draw_panel(Canvas& canvas, const SpacePlot& plot, const SpaceFrame& frame, const ColourScale& scale,
                 const Box& box, bool single) {
@@ -73,30 +96,37 @@ void draw_panel(Canvas& canvas, const SpacePlot& plot, const SpaceFrame& frame, 
     divide(plot.blocks_across, true);
     divide(plot.blocks_down, false);
     const Axes axes{box, {g.x - 0.5, g.x + g.width - 0.5}, {g.y - 0.5, g.y + g.height - 0.5}, true};
-    draw_axes(canvas, axes, {single ? name_across(g) : "", true},
-              {single ? name_down(g) : "", true, !g.numbered});
+    AxisStyle rows{single ? name_down(g) : "", true, !g.numbered};
+    if (single) rows.ticks = name_ticks(row_names(g), g.y);
+    draw_axes(canvas, axes, {"", true}, rows);
     if (!single) canvas.text(box.x + box.width / 2, box.y - 6, fmt::format("cycle {}", frame.cycle), 12, 0.5);
 }
 
 Picture sheet_of(const SpacePlot& plot, std::vector<SpaceFrame> frames, const ColourScale& scale) {
-    const PanelSheet sheet(plot.grid, frames.size());
-    const std::string subtitle =
-        frames.size() == 1
-            ? fmt::format("cycle {}{}{}", frames[0].cycle, plot.subtitle.empty() ? "" : " · ", plot.subtitle)
-            : plot.subtitle;
     Measure measure;
-    const double width =
-        std::max({sheet.width, width_of_titles(measure.canvas(), plot.title, subtitle), 260.0});
+    double names = 0;
+    for (const auto& name : row_names(plot.grid))
+        names = std::max(names, measure.canvas().width_of(name, 12));
+    const PanelSheet sheet(plot.grid, frames.size(), names);
+    const std::string subtitle =
+        frames.size() == 1 ? fmt::format("{}{}{}", moment_text(frames[0].cycle, plot.seconds_per_cycle),
+                                         plot.subtitle.empty() ? "" : " · ", plot.subtitle)
+                           : plot.subtitle;
+    // A title that is wider than the panels stands below the colour bar, too.
+    const double across = measure.canvas().width_of(name_across(plot.grid), 13);
+    const double middle = std::max(sheet.left + sheet.panels_width / 2, 12 + across / 2);
+    const double below =
+        across > sheet.panels_width ? std::max(sheet.panels_height, 90.0) : sheet.panels_height;
+    const double width = std::max({sheet.width, width_of_titles(measure.canvas(), plot.title, subtitle),
+                                   260.0, middle + across / 2 + 12});
     return {width, sheet.height, [=](Canvas& canvas) {
                 draw_titles(canvas, plot.title, subtitle);
                 for (std::size_t i = 0; i < frames.size(); ++i)
                     draw_panel(canvas, plot, frames[i], scale, sheet.panel(i), frames.size() == 1);
-                if (frames.size() > 1) {
-                    canvas.text(sheet.left + sheet.panels_width / 2, sheet.top + sheet.panels_height + 37,
-                                name_across(plot.grid), 13, 0.5);
+                canvas.text(middle, sheet.top + below + 37, name_across(plot.grid), 13, 0.5);
+                if (frames.size() > 1)
                     canvas.text_upwards(sheet.left - 40, sheet.top + sheet.panels_height / 2,
                                         name_down(plot.grid), 13);
-                }
                 draw_colour_bar(canvas, scale, sheet.colour_bar(), plot.quantity);
             }};
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/archive.h"
+#include "core/types/cell_names.h"
 #include "tools/plot/canvas.h"
 
 namespace forage::plot {
@@ -16,6 +17,7 @@ struct CellGrid {
     int width = 1, height = 1;
     bool numbered = false;  ///< whether the cells have no positions; x is their number then, from 1
     bool synapses = false;  ///< whether columns are source cells and rows are target cells
+    CellNames names = {};   ///< what the cells of the group stand for
 };
 
 struct SpaceFrame {
@@ -30,6 +32,7 @@ struct SpacePlot {
     CellGrid grid;
     int blocks_across = 1, blocks_down = 1;  ///< lines divide the group into these blocks
     std::vector<SpaceFrame> frames;
+    double seconds_per_cycle = 0;  ///< 0 if unknown
 };
 
 /// A sheet with all frames, which share a colour scale. There must be at least one frame.

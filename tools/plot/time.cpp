@@ -9,8 +9,9 @@
 namespace forage::plot {
 namespace {
 
-constexpr double time_left = 84, time_top = 62, time_bottom = 50,
+constexpr double time_left = 84, time_top = 62, time_bottom = 64,
                  time_width = 760;  ///< pixels around and across the curves
+constexpr double name_room = 42;    ///< that names of rows have in `time_left`
 
 Interval cycles_of(const TimePlot& plot) {
     double low = std::numeric_limits<double>::max(), high = std::numeric_limits<double>::lowest();
@@ -42,8 +43,18 @@ Interval values_of(const TimePlot& plot) {
     return {out.low == 0 ? 0 : out.low - margin, out.high == 0 ? 0 : out.high + margin};
 }
 
-std::string time_title(const TimePlot& plot) {
-    return plot.seconds_per_cycle > 0 ? fmt::format("cycle (of {:.3g} s)", plot.seconds_per_cycle) : "cycle";
+/// Draws the axes, with the seconds of each tick above its cycle.
+void draw_time_axes(Canvas& canvas, const Axes& axes, const TimePlot& plot, const AxisStyle& y) {
+    const double s = plot.seconds_per_cycle;
+    if (!(s > 0)) return draw_axes(canvas, axes, {"cycle", true}, y);
+    const Ticks seconds({axes.x.low * s, axes.x.high * s}, static_cast<int>(axes.box.width / 80) + 1);
+    AxisStyle x;
+    for (const double v : seconds.at()) {
+        x.ticks.emplace_back(v / s, seconds.name(v) + " s");
+        canvas.text(axes.px(v / s), axes.box.bottom() + 33, fmt::format("{:.0f}", v / s), 11, 0.5, grey);
+    }
+    draw_axes(canvas, axes, x, y);
+    canvas.text(axes.box.x + axes.box.width / 2, axes.box.bottom() + 51, "time, cycle", 13, 0.5);
 }
 
 void draw_marks(Canvas& canvas, const TimePlot& plot, const Axes& axes, const Colour& colour) {
@@ -105,7 +116,7 @@ Picture lines(const TimePlot& plot) {
                 for (std::size_t i = 0; i < curves.size(); ++i)
                     draw_curve(canvas, axes, curves[i], category(i));
                 cairo_restore(canvas.cairo());
-                draw_axes(canvas, axes, {time_title(plot), true}, {plot.quantity});
+                draw_time_axes(canvas, axes, plot, {plot.quantity});
                 double y = time_top + 10;
                 const double x = axes.box.right() + 14;
                 if (legend) canvas.text(x, y + 4, plot.cells, 12, 0, grey), y += 20;
@@ -151,7 +162,12 @@ Picture rows(const TimePlot& plot) {
     const Interval cells{
         plot.first_cell - 0.5,
         plot.first_cell - 0.5 + static_cast<double>(plot.curves.size() * plot.cells_per_row)};
-    const Axes axes{{time_left, time_top, time_width, tall}, cycles_of(plot), cells, true};
+    Measure measure;
+    double names = name_room;
+    for (const auto& [at, name] : plot.cell_ticks)
+        names = std::max(names, measure.canvas().width_of(name, 12));
+    const double left = time_left + names - name_room;
+    const Axes axes{{left, time_top, time_width, tall}, cycles_of(plot), cells, true};
     const double bar = std::max(tall, 90.0);
     std::vector<std::vector<double>> values;
     for (const auto& c : plot.curves) values.push_back(row_values(c, axes.x));
@@ -160,18 +176,17 @@ Picture rows(const TimePlot& plot) {
     if (plot.cells_per_row > 1)
         shown.cells +=
             fmt::format("; a row shows the value furthest from zero of {} cells", plot.cells_per_row);
-    return {
-        time_left + time_width + 22 + 16 + colour_bar_labels, time_top + bar + time_bottom,
-        [=](Canvas& canvas) {
-            draw_titles(canvas, shown.title, shown.subtitle);
-            draw_cells(canvas, axes.box, static_cast<int>(time_width), count, [&](int column, int r) {
-                const auto& row_of = values[static_cast<std::size_t>(r)];
-                return row_of.empty() ? grey : scale(row_of[static_cast<std::size_t>(column)]);
-            });
-            draw_marks(canvas, shown, axes, scale.interval().low < 0 ? grey : white);
-            draw_axes(canvas, axes, {time_title(shown), true}, {shown.cells, true, true, shown.cell_ticks});
-            draw_colour_bar(canvas, scale, {axes.box.right() + 22, time_top, 16, bar}, shown.quantity);
-        }};
+    return {left + time_width + 22 + 16 + colour_bar_labels, time_top + bar + time_bottom,
+            [=](Canvas& canvas) {
+                draw_titles(canvas, shown.title, shown.subtitle);
+                draw_cells(canvas, axes.box, static_cast<int>(time_width), count, [&](int column, int r) {
+                    const auto& row_of = values[static_cast<std::size_t>(r)];
+                    return row_of.empty() ? grey : scale(row_of[static_cast<std::size_t>(column)]);
+                });
+                draw_marks(canvas, shown, axes, scale.interval().low < 0 ? grey : white);
+                draw_time_axes(canvas, axes, shown, {shown.cells, true, true, shown.cell_ticks});
+                draw_colour_bar(canvas, scale, {axes.box.right() + 22, time_top, 16, bar}, shown.quantity);
+            }};
 }
 
 }  // namespace

@@ -22,3 +22,30 @@ TEST_CASE("The rows of a time plot have the names of their cells") {
     CHECK(drawn(1, 1) != drawn(1, 2));
     CHECK(drawn(1, 1) != drawn(2, 1));
 }
+
+TEST_CASE("A time plot names cells by what they stand for, and moments in seconds and cycles") {
+    const auto drawn = [](const forage::CellNames& names, int cells, double seconds_per_cycle) {
+        forage::observe::Recorded what;
+        what.name = "P/G:act", what.cells = {1, 1, cells, 1, {}}, what.group_width = cells,
+        what.names = names;
+        forage::Diagnostics diagnostics;
+        RowPlot plot(*parse_plot("time:P/G", "plot", diagnostics), what);
+        for (std::uint64_t cycle = 0; cycle < 100; ++cycle)
+            plot.add(cycle, std::vector<double>(static_cast<std::size_t>(cells), 1));
+        return plot.draw(Format::svg, {"", seconds_per_cycle, {}});
+    };
+    const forage::CellNames names{.columns = {"left", "right"}};
+    CHECK(drawn(names, 2, 0.04) != drawn({}, 2, 0.04));
+    CHECK(drawn(names, 2, 0.04) == drawn(names, 2, 0.04));
+    CHECK(drawn({}, 2, 0.04) != drawn({}, 2, 0));
+    const forage::CellNames many{.columns = std::vector<std::string>(20, "a long name of a cell")};
+    CHECK(drawn(many, 20, 0).substr(0, 200) != drawn({}, 20, 0).substr(0, 200));  // it is wider
+    CHECK(moment_text(310, 0.04) == "12.4 s (cycle 310)");
+    CHECK(moment_text(1, 1 / 30.) == "0.03 s (cycle 1)");
+    CHECK(moment_text(7, 0) == "cycle 7");
+}
+
+TEST_CASE("Neighbours of the same name share a tick") {
+    CHECK(name_ticks({"red", "red", "blue"}, 1) ==
+          std::vector<std::pair<double, std::string>>{{1.5, "red"}, {3, "blue"}});
+}
