@@ -52,6 +52,16 @@ json states_of(const NeuronType* type) {
     return out;
 }
 
+/// What the cells of a group stand for; null where nothing is known, and without a run.
+json names_of(const Run* run, const std::string& group) {
+    if (!run) return nullptr;
+    const auto& groups = run->layout().groups;
+    const auto at = std::ranges::find(groups, group, &engine::Layout::Group::id);
+    if (at == groups.end() || !at->names.any()) return nullptr;
+    const CellNames& names = at->names;
+    return {{"columns", names.columns}, {"rows", names.rows}, {"column", names.column}, {"row", names.row}};
+}
+
 json module_of(const model::Process& p) {
     if (!p.module) return nullptr;
     json out = {{"type", p.module->type}, {"inputs", json::array()}, {"outputs", json::array()}};
@@ -169,6 +179,7 @@ json describe_system(const model::System& system, const Registry& registry, cons
                               {"height", group.height},
                               {"cells", group.cells},
                               {"places", places_of(g.topology)},
+                              {"names", names_of(run, group.id)},
                               {"states", states_of(registry.neuron(g.neuron.type))}});
         }
         processes.push_back({{"id", process.id},

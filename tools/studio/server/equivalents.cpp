@@ -204,13 +204,16 @@ std::string opened_in_python(const Opened& o) {
 
 }  // namespace
 
-Equivalent of_run(const std::optional<std::uint64_t>& trials, const std::string& condition) {
-    const auto count = trials ? fmt::format("trials={}", *trials) : "";
-    std::string shell = trials ? fmt::format("--trials {}", *trials) : "";
+Equivalent of_run(const RunLength& length) {
+    std::string count, shell;
+    if (length.trials) count = fmt::format("trials={}", *length.trials);
+    if (length.seconds) count = fmt::format("seconds={}", *length.seconds);
+    if (!count.empty()) shell = "--" + count, shell[shell.find('=')] = ' ';
+    const std::string& condition = length.until.text;
     if (condition.empty()) return {shell, fmt::format("run.run({})", count)};
-    if (trials) shell += ' ';
+    if (!shell.empty()) shell += ' ';
     return {shell + "--until " + shell_word(condition),
-            fmt::format("run.run_until({}{}{})", literal(condition), trials ? ", " : "", count)};
+            fmt::format("run.run_until({}{}{})", literal(condition), count.empty() ? "" : ", ", count)};
 }
 
 Equivalent of_restart(const Opened& o) { return {fmt::format("--seed {}", o.seed), opened_in_python(o)}; }

@@ -8,6 +8,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "core/run/run_spec.h"
+
 namespace forage::studio {
 
 /// Both may be empty. A line of `shell` is options of `forage run`, or another command.
@@ -61,7 +63,7 @@ struct Opened {
 Equivalent of_restart(const Opened& opened);
 Equivalent of_world(const Opened& opened);
 /// A run until so many trials have ended or a condition holds; it is empty for none.
-Equivalent of_run(const std::optional<std::uint64_t>& trials, const std::string& condition);
+Equivalent of_run(const RunLength& length);
 /// A recording into a file, of every n-th cycle from the first to the last one.
 struct Sampled {
     std::vector<std::string> sources;

@@ -29,8 +29,9 @@ json run_until(Session& s, const Request& r) {
     RunLength length;
     length.in_code = true, length.until = {r.text("condition")};
     if (r.has("trials")) length.trials = r.whole("trials");
-    if (!length.trials && length.until.empty())
-        throw InputError("what should the run wait for?", "a number of trials, or a condition");
+    if (r.has("seconds")) length.seconds = r.number("seconds");
+    if (!length.trials && !length.seconds && length.until.empty())
+        throw InputError("what should the run wait for?", "a number of trials, seconds, or a condition");
     Diagnostics diagnostics;
     auto condition = StopCondition::make(length, s.run(), diagnostics);
     throw_errors(diagnostics);
@@ -41,10 +42,21 @@ json run_until(Session& s, const Request& r) {
     s.live.pause_when = {length, std::move(condition), StopCondition::begin(s.run())};
     std::string title = "run";
     if (length.trials) title += fmt::format(" {} trials", *length.trials);
+    if (length.seconds) title += fmt::format(" {} s", *length.seconds);
     if (!length.until.empty())
-        title += fmt::format("{} until {}", length.trials ? " or" : "", length.until.text);
-    s.log({.command = "run_until", .title = title, .scripts = of_run(length.trials, length.until.text)});
+        title +=
+            fmt::format("{} until {}", length.trials || length.seconds ? " or" : "", length.until.text);
+    s.log({.command = "run_until", .title = title, .scripts = of_run(length)});
     return json::object();
+}
+
+json condition_holds(Session& s, const Request& r) {
+    RunLength length;
+    length.in_code = true, length.until = {r.text("condition")};
+    Diagnostics diagnostics;
+    const auto condition = StopCondition::make(length, s.run(), diagnostics);
+    throw_errors(diagnostics);
+    return {{"holds", condition.holds(s.run())}};
 }
 
 json pause_run(Session& s, const Request&) {
@@ -174,11 +186,16 @@ std::vector<Command> run_commands() {
         {.name = "run", .doc = "Starts the run.", .apply = start_run},
         {.name = "run_until",
          .doc =
-             "Starts the run, and pauses it when the first robot has finished so many more trials, or when "
-             "a condition holds.",
-         .arguments = {optional("trials", whole(1, 1'000'000)),
+             "Starts the run, and pauses it when the first robot has finished so many more trials, after so "
+             "many seconds of the world, or when a condition holds.",
+         .arguments = {optional("trials", whole(1, 1'000'000)), optional("seconds", number(0, 1e9)),
                        optional("condition", text(), "", "as that of `forage run --until`; empty for none")},
          .apply = run_until},
+        {.name = "holds",
+         .doc = "Says whether a condition holds now.",
+         .arguments = {{"condition", text(), "as that of `forage run --until`"}},
+         .result = "{ holds: boolean }",
+         .apply = condition_holds},
         {.name = "pause", .doc = "Pauses the run.", .apply = pause_run},
         {.name = "step",
          .doc = "Pauses, then computes cycles.",

@@ -215,6 +215,29 @@ TEST_CASE("a run pauses when a condition holds, as that of the command line does
     CHECK_FALSE(f.session.running());
 }
 
+TEST_CASE("a run of some seconds pauses after them, from where it is") {
+    Fixture f;
+    f.session.connect(1);
+    f.result({{"command", "speed"}, {"mode", "free"}});
+    for (const std::uint64_t cycles : {50U, 100U}) {
+        f.result({{"command", "run_until"}, {"seconds", 50 * f.session.run().seconds_per_cycle()}});
+        for (double now = 100; f.session.running() && now < 1e5; ++now) f.session.work(now);
+        CHECK(f.session.run().cycle() == cycles);
+    }
+    const auto logged = std::ranges::find(f.messages[1], "action", [](const json& m) { return m["type"]; });
+    REQUIRE(logged != f.messages[1].end());
+    CHECK((*logged)["shell"].get<std::string>().starts_with("--seconds "));
+    CHECK((*logged)["python"].get<std::string>().starts_with("run.run(seconds="));
+}
+
+TEST_CASE("whether a condition holds is said at any time") {
+    Fixture f;
+    CHECK(f.result({{"command", "holds"}, {"condition", "cycle < 1"}})["holds"] == true);
+    CHECK(f.result({{"command", "holds"}, {"condition", "cycle > 1 and max(Bug/Motor) > 0"}})["holds"] ==
+          false);
+    CHECK(f.ask({{"command", "holds"}, {"condition", "cycles"}})["ok"] == false);
+}
+
 TEST_CASE("every system that comes with Forage to begin with has a sentence, and a world if it has a robot") {
     const std::string systems = FORAGE_SOURCE_DIR "/systems";
     Session session(
