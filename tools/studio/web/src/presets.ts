@@ -69,10 +69,37 @@ function build(): void {
   if (model.world) dock.open({ kind: 'arena' }, { beside: diagram, inactive: true });
 }
 
-/** Arena, diagram and plots. Closes all other panels but the tutorial. */
-export function arrange(plots: PanelState[]): void {
+/** The panel in question in the largest place, plots at its right, and below it the arena, with the diagram behind it. */
+function around(large: PanelState, others: PanelState[]): void {
+  const api = dock.api!, kept = clear();
+  const main = dock.open(large, kept ? { beside: kept.id, direction: frame.small ? 'above' : 'right' } : {})!;
+  const views: PanelState[] = ([{ kind: 'arena' }, { kind: 'diagram' }] as PanelState[]).filter((p) => p.kind !== large.kind && (p.kind !== 'arena' || model.world));
+  if (frame.room !== 'wide') {
+    let stack = frame.small ? main : null;
+    for (const p of [...views.slice(0, 1), ...others, ...views.slice(1)]) stack = dock.open(p, stack ? { beside: stack, inactive: true } : { beside: main, direction: 'below', height: Math.round(api.height * 0.43) });
+    api.getPanel(main)?.api.setActive();
+    if (!frame.small) kept?.api.setSize({ width: tutorialWidth(api.width) });
+    return;
+  }
+  const width = Math.round((api.width - (kept ? tutorialWidth(api.width) : 0)) * 0.4);
+  const right: string[] = [];
+  for (const p of others) {
+    const above = right[right.length - 1];
+    right.push(dock.open(p, above ? { beside: above, direction: 'below' } : { beside: main, direction: 'right', width })!);
+  }
+  let below: string | null = null;
+  for (const p of views) below = dock.open(p, below ? { beside: below, inactive: true } : right.length ? { beside: main, direction: 'below', height: Math.round(api.height * 0.42) } : { beside: main, direction: 'right', width });
+  api.getPanel(main)?.api.setActive();
+  kept?.api.setSize({ width: tutorialWidth(api.width) });
+  for (const id of right) api.getPanel(id)?.api.setSize({ width, height: Math.round(api.height / right.length) });
+}
+
+/** Arena, diagram and plots; the largest is the panel of the kind `large`, if there is one. Closes all other panels but the tutorial. */
+export function arrange(plots: PanelState[], large?: string): void {
   const api = dock.api;
   if (!api) return;
+  const main = plots.find((p) => p.kind === large) ?? (large === 'arena' || large === 'diagram' ? { kind: large } : undefined);
+  if (main) return around(main, plots.filter((p) => p !== main));
   const kept = clear();
   const first: PanelState = model.world ? { kind: 'arena' } : { kind: 'diagram' };
   const arena = dock.open(first, kept ? { beside: kept.id, direction: frame.small ? 'above' : 'right' } : {})!;

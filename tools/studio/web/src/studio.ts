@@ -122,7 +122,7 @@ function receive(message: ServerMessage): void {
       run.status = message;
       break;
     case 'action': {
-      actions.add(message);
+      actions.add(message, run.status?.epoch);
       const ended = endedText(message, run.status?.epoch);
       if (ended) actions.notify('info', ended);
       break;

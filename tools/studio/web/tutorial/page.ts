@@ -1,6 +1,7 @@
 // Makes a page of the panel Tutorial from a file of docs/tutorial. Runs in the build; the page of the studio gets the HTML.
 import { Marked } from 'marked';
 import { formulas, greek } from './formula';
+import { readCheck } from '../src/tutorial/checks';
 import type { Setup } from '../src/tutorial/setup';
 
 export interface TutorialPage {
@@ -17,11 +18,11 @@ const panelKinds = ['space', 'time', 'raster', 'weights', 'wiring', 'camera', 'm
 
 /** Reads what a comment `<!-- studio ... -->` says: lines of a key, a colon and a value. */
 export function readSetup(text: string): Setup {
-  const setup: Setup = { system: '', world: '', set: [], clamp: [], speed: 1, seed: 1, window: 30, panels: [], diagram: '', choices: [], say: '' };
+  const setup: Setup = { system: '', world: '', set: [], clamp: [], speed: 1, seed: 1, window: 30, panels: [], diagram: '', large: '', choices: [], checks: [], say: '' };
   for (const line of text.split('\n').map((l) => l.trim()).filter(Boolean)) {
     const [, key, value] = /^(\w+): *(.+)$/.exec(line) ?? [];
     if (!key || !value) throw new Error(`'${line}' is not a key, a colon and a value`);
-    if (key === 'system' || key === 'world' || key === 'diagram') setup[key] = value;
+    if (key === 'system' || key === 'world' || key === 'diagram' || key === 'large') setup[key] = value;
     else if (key === 'set' || key === 'clamp') setup[key].push(value);
     else if (key === 'speed') {
       setup.speed = value === 'max' ? 0 : Number(value);
@@ -39,7 +40,11 @@ export function readSetup(text: string): Setup {
       const [, item, low, high] = /^(.+) from (\S+) to (\S+)$/.exec(value) ?? [];
       if (item && !(Number(low) < Number(high))) throw new Error(`'${value}' has no scale: two numbers, the lower one first`);
       setup.panels.push(item ? { kind: key, item, scale: [Number(low), Number(high)] } : { kind: key, item: value });
-    } else if (key === 'trials' && !/^[1-9]\d*$/.test(value)) throw new Error(`'${value}' is not a number of trials`);
+    } else if (key === 'check') setup.checks.push(readCheck(value));
+    else if (key === 'trials' || key === 'seconds') {
+      if (!/^[1-9]\d*$/.test(value)) throw new Error(`'${value}' is not a number of ${key}`);
+      setup.panels.push({ kind: 'trials', item: value, key });
+    } else if (key === 'until') setup.panels.push({ kind: 'trials', item: value, key });
     else if (panelKinds.includes(key)) setup.panels.push({ kind: key, item: value });
     else throw new Error(`'${key}' is not a key of a set-up`);
   }
@@ -47,6 +52,7 @@ export function readSetup(text: string): Setup {
   // Without a name, the diagram shows the process of the first plot.
   setup.diagram ||= setup.panels.flatMap((p) => /^([^/]+)\//.exec(p.item)?.[1] ?? [])[0] ?? '';
   if (!setup.diagram) throw new Error('a set-up has a plot of a group, or names the process of the diagram');
+  if (setup.large && !['arena', 'diagram', ...setup.panels.map((p) => p.kind)].includes(setup.large)) throw new Error(`'${setup.large}' is no panel of the set-up`);
   return setup;
 }
 
@@ -59,8 +65,9 @@ function setupHtml(setup: Setup, number: number): string {
   );
   return `<section class="setup" data-setup="${number}" aria-label="Set-up ${number + 1}"><button type="button" class="primary" data-open="${number}">Set it up</button><small>${escape(setup.system)} in ${escape(setup.world)}</small><p>${
     inline(setup.say)
-  }</p>${choices.join('')}</section>\n`;
+  }</p>${choices.join('')}${setup.checks.length ? checksHtml : ''}</section>\n`;
 }
+const checksHtml = '<div class="checks"><button type="button" class="outlined" data-check disabled>Check what I have seen</button><ul role="status"></ul></div>';
 const inline = (text: string) => new Marked({ renderer: { html: ({ text }) => escape(text) } }).parseInline(text) as string;
 
 /** `id` is the name of the file without `.md`, `ids` those of all pages. Throws when the text has HTML that is not known here. */

@@ -1,5 +1,6 @@
 // Where the cells of a group are drawn: a sparse group has holes in its lattice.
-import type { Group } from '../protocol/messages';
+import type { CellNames, Group } from '../protocol/messages';
+import { cellName } from './cell_names';
 
 export class Lattice {
   readonly columns: number;
@@ -9,16 +10,16 @@ export class Lattice {
   private readonly places: readonly (readonly [number, number])[] | null;
 
   /** `places` are columns and rows within the lattice; `left` and `top` are where the lattice begins in the group. */
-  constructor(columns: number, rows: number, places: readonly (readonly [number, number])[] | null = null, private readonly left = 0, private readonly top = 0) {
+  constructor(columns: number, rows: number, places: readonly (readonly [number, number])[] | null = null, private readonly left = 0, private readonly top = 0, private readonly names: CellNames | null = null) {
     this.columns = Math.max(1, columns);
     this.rows = Math.max(1, rows);
     this.places = places;
     this.cells = Int32Array.from({ length: this.columns * this.rows }, (_, i) => (places ? -1 : i));
     places?.forEach(([x, y], i) => (this.cells[y * this.columns + x] = i));
   }
-  static of(group: Pick<Group, 'width' | 'height' | 'places'>): Lattice {
-    const { width, height, places } = group;
-    if (!places?.length) return new Lattice(width, height);
+  static of(group: Pick<Group, 'width' | 'height' | 'places' | 'names'>): Lattice {
+    const { width, height, places, names } = group;
+    if (!places?.length) return new Lattice(width, height, null, 0, 0, names);
     const left = Math.min(...places.map((p) => p[0])), top = Math.min(...places.map((p) => p[1]));
     return new Lattice(width, height, places.map(([x, y]) => [x - left, y - top]), left, top);
   }
@@ -57,6 +58,10 @@ export class Lattice {
   /** Column and row as they are written for users: "(3, 1)". */
   name(place: number): string {
     return `(${this.numbers(place).join(', ')})`;
+  }
+  /** What the cell at a place stands for, and where it is: "temperature (1, 1)". */
+  title(place: number): string {
+    return [cellName(this.names, ...this.numbers(place)), this.name(place)].filter(Boolean).join(' ');
   }
   /** How sources name cells of a selection of places, in as few rectangles as are found row by row: "2..4,1". The cells of a sparse group are one row. */
   ranges(places: Iterable<number>): string[] {

@@ -1,5 +1,5 @@
 // What the trials of a run show: where they began, and how the share of hits grows.
-import type { Trial } from '../protocol/messages';
+import type { ActionMessage, Trial } from '../protocol/messages';
 
 /** A number in steps, without a sign before 0. */
 const inSteps = (v: number, step: number) => Math.round(v / step) * step + 0;
@@ -12,6 +12,15 @@ export function byStart(trials: Trial[], most = 12): { start: string; trials: Tr
   for (const t of trials) rows.set(startText(t.start), [...(rows.get(startText(t.start)) ?? []), t]);
   if (rows.size > most) return [{ start: 'all starts', trials }];
   return [...rows].map(([start, some]) => ({ start, trials: some }));
+}
+
+/** An action, and the course of the run in which it was done. */
+export type Done = ActionMessage & { epoch?: number };
+
+/** What was done last to this course of the run, and the trials that began after it; all without such a change. */
+export function sinceLastChange(trials: Trial[], log: Done[], epoch: number | undefined): { change: Done | undefined; trials: Trial[] } {
+  const change = [...log].reverse().find((a) => a.epoch === epoch && a.cycle > 0 && a.generation !== undefined && !['run_until', 'save'].includes(a.command));
+  return { change, trials: change ? trials.filter((t) => t.first_cycle >= change.cycle) : trials };
 }
 
 /** The share of hits with its interval of 95 % (Wilson's score). */

@@ -6,6 +6,9 @@ export const protocolVersion = 1;
 export type Icon = { x: number; y: number; width: number; height: number };
 export type State = { name: string; label: string; output?: boolean };
 
+/** What the cells of a group stand for: names of columns and rows, or what these are that are only numbered, such as "segment". */
+export type CellNames = { columns: string[]; rows: string[]; column: string; row: string };
+
 export interface Group {
   id: string;
   name: string;
@@ -20,6 +23,8 @@ export interface Group {
   cells: number;
   /** Columns and rows, from 0, of the cells of a sparse group. */
   places: [number, number][] | null;
+  /** What its cells stand for, as far as that is known. */
+  names: CellNames | null;
   states: State[];
 }
 

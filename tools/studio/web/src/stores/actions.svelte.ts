@@ -1,4 +1,5 @@
 // What was done, with the shell command and the Python that do the same; and messages for the user.
+import type { Done } from '../draw/trials';
 import type { ActionMessage } from '../protocol/messages';
 
 interface Notice {
@@ -12,12 +13,12 @@ interface Notice {
 }
 
 class Actions {
-  log = $state.raw<ActionMessage[]>([]);
+  log = $state.raw<Done[]>([]);
   notices = $state.raw<Notice[]>([]);
   private nextKey = 1;
 
-  add(action: ActionMessage): void {
-    this.log = [...this.log.slice(-499), action];
+  add(action: ActionMessage, epoch: number | undefined): void {
+    this.log = [...this.log.slice(-499), { ...action, epoch }];
   }
   /** Shows a message; an error stays until it is closed, or its cause is settled. */
   notify(kind: Notice['kind'], text: string, { cause, action }: Pick<Notice, 'cause' | 'action'> = {}): void {

@@ -12,6 +12,8 @@ class Model {
   /** Null without a world. */
   world = $state.raw<WorldMessage | null>(null);
 
+  /** Seconds of the world; of the system without one. */
+  perCycle = $derived(this.system?.seconds_per_cycle || 1);
   processes = $derived(this.system?.processes ?? []);
   groups = $derived(this.processes.flatMap((p) => p.groups));
   connections = $derived(this.system?.connections ?? []);

@@ -6,11 +6,14 @@ import { model } from '../stores/model.svelte';
 import { run } from '../stores/run.svelte';
 import { selection } from '../stores/selection.svelte';
 import { command } from '../studio';
+import type { Check } from './checks';
 
 export interface PanelSetup {
   kind: string;
-  /** What it shows; of the trials, how many its button runs. */
+  /** What it shows. */
   item: string;
+  /** Of the trials, what `item` is: how many of them its button runs, or seconds, or until a condition holds. */
+  key?: string;
   /** The ends of a fixed scale. */
   scale?: [number, number];
 }
@@ -31,8 +34,12 @@ export interface Setup {
   window: number;
   /** The process whose groups the diagram shows, by name. */
   diagram: string;
+  /** The kind of the panel that gets the largest place; empty: the first plot. */
+  large: string;
   /** Values that one tries while it runs. */
   choices: { assignment: string; values: string[] }[];
+  /** What the exercise expects to be seen. */
+  checks: Check[];
   say: string;
 }
 
@@ -46,12 +53,13 @@ export function clampPattern(clamp: string, size: (group: string) => { width: nu
   return { group, pattern };
 }
 
-function panelOf({ kind, item, scale }: PanelSetup, window: number): PanelState {
+function panelOf({ kind, item, scale, key }: PanelSetup, window: number): PanelState {
   if (kind === 'time') return { kind, window, sources: item.split(', ').map((s) => (model.group(s) ? `mean(${s})` : s)) };
   if (kind === 'space' && scale) return { kind, item, scale: { mode: 'manual', low: scale[0], high: scale[1] } };
   // Cells are between 0 and 1, mostly: a scale that followed smaller values would show noise as an answer.
   if (kind === 'space') return { kind, item, scale: { mode: 'expand', low: 0, high: 1 } };
-  if (kind === 'trials') return { kind, count: Number(item) };
+  // A condition ends the run: there may be any number of trials until then.
+  if (kind === 'trials') return key === 'until' ? { kind, condition: item, count: 100_000 } : { kind, [key === 'seconds' ? 'seconds' : 'count']: Number(item) };
   return kind === 'sampler' ? { kind, sources: [item] } : { kind, item };
 }
 
@@ -81,7 +89,8 @@ export async function setUp(setup: Setup): Promise<boolean> {
       clamped.set(group, pattern);
     }
     showProcess(setup.diagram);
-    arrange(setup.panels.map((p) => panelOf(p, setup.window)).map((p) => (p.kind === 'manipulate' ? { ...p, cells: clamped.get(p.item!) } : p)));
+    const plots = setup.panels.map((p) => panelOf(p, setup.window)).map((p) => (p.kind === 'manipulate' ? { ...p, cells: clamped.get(p.item!) } : p));
+    arrange(plots, setup.large || plots[0]?.kind);
     return true;
   } finally {
     dock.arranging = false;

@@ -4,14 +4,14 @@ import { parseSource, renamedSource, singleCells, sourceText } from '../../src/p
 
 describe('Lattice', () => {
   const full = new Lattice(4, 3);
-  const sparse = Lattice.of({ width: 3, height: 3, places: [[0, 0], [2, 2], [0, 2]] });
+  const sparse = Lattice.of({ width: 3, height: 3, places: [[0, 0], [2, 2], [0, 2]], names: null });
 
   it('spreads the cells of a sparse group over its lattice, with holes', () => {
     expect([sparse.columns, sparse.rows]).toEqual([3, 3]);
     expect(Array.from(sparse.spread([1, 2, 3]))).toEqual([1, NaN, NaN, NaN, NaN, NaN, 3, NaN, 2]);
     expect([sparse.cell(8), sparse.cell(1), sparse.cell(99), sparse.place(1)]).toEqual([1, -1, -1, 8]);
     expect([sparse.name(8), sparse.numbers(5)]).toEqual(['(3, 3)', [3, 2]]);
-    const far = Lattice.of({ width: 2, height: 1, places: [[99, 7], [100, 7]] });
+    const far = Lattice.of({ width: 2, height: 1, places: [[99, 7], [100, 7]], names: null });
     expect([far.columns, far.rows, far.name(1), ...far.ranges([0, 1])]).toEqual([2, 1, '(101, 8)', '1..2,1']);
   });
   it('names cells as sources do: in rectangles, or by number in a sparse group', () => {

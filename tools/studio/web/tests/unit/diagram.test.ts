@@ -20,6 +20,7 @@ const group = (id: string, x: number | null, y = 0): Group => ({
   height: 1,
   cells: 1,
   places: null,
+  names: null,
   states: [],
 });
 const connection = (id: string, source: string, target: string, line: Connection['line'] = null): Connection => ({

@@ -25,7 +25,7 @@ const { model } = await import('../../src/stores/model.svelte');
 const { selection } = await import('../../src/stores/selection.svelte');
 type ParameterInfo = import('../../src/protocol/messages').ParameterInfo;
 
-const group = (id: string) => ({ id, name: id, path: `P/${id}`, color: '', note: '', icon: null, type: '', width: 1, height: 1, cells: 1, places: null, states: [] });
+const group = (id: string) => ({ id, name: id, path: `P/${id}`, color: '', note: '', icon: null, type: '', width: 1, height: 1, cells: 1, places: null, names: null, states: [] });
 const line = (id: string, source: string, target: string) => ({ id, name: id, source, target, kind: 'excitatory' as const, type: '', note: '', synapses: 1, form: '', states: [], fixed_weights: false, line: null });
 const threshold = { name: 'threshold', assignment: 'P/a.threshold' } as ParameterInfo;
 

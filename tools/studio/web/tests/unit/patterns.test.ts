@@ -2,8 +2,8 @@ import { describe, expect, it } from 'vitest';
 import { Lattice } from '../../src/draw/lattice';
 import { moved, neighbour, painted, stroke } from '../../src/panels/patterns';
 
-const full = Lattice.of({ width: 3, height: 2, places: null });
-const sparse = Lattice.of({ width: 4, height: 3, places: [[0, 0], [3, 0], [3, 2]] });
+const full = Lattice.of({ width: 3, height: 2, places: null, names: null });
+const sparse = Lattice.of({ width: 4, height: 3, places: [[0, 0], [3, 0], [3, 2]], names: null });
 
 describe('the grid of a group', () => {
   it('has its cells row by row', () => {

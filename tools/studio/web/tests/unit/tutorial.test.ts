@@ -48,7 +48,9 @@ describe('pages of the tutorial', () => {
       window: 30,
       panels: [{ kind: 'space', item: 'P/G' }],
       diagram: 'P',
+      large: '',
       choices: [{ assignment: 'P.y', values: ['0', '0.5'] }],
+      checks: [],
       say: 'Press *Run* <now>.',
     }]);
     expect(made.html).toContain('data-open="0">Set it up</button>');
@@ -63,6 +65,8 @@ describe('pages of the tutorial', () => {
     ['system: a\nworld: b\nspeed: fast', 'not a speed'],
     ['system: a\nworld: b\ntrials: some', 'not a number of trials'],
     ['hello', 'a key, a colon and a value'],
+    ['system: a\nworld: b\nspace: P/G\nlarge: raster', 'no panel of the set-up'],
+    ['system: a\nworld: b\nspace: P/G\ncheck: some', 'neither'],
     ['system: a\nworld: b\nseed: x', "not a whole number from 1 up, for 'seed'"],
     ['system: a\nworld: b\nwindow: 0.5', 'not a whole number'],
     ['system: a\nworld: b\nwindow: 60', 'no span of a plot'],
@@ -80,6 +84,11 @@ describe('pages of the tutorial', () => {
     const setup = readSetup('system: a\nworld: b\nseed: 3\nwindow: 600\nspace: P/Two words from -0.5 to 0.2\ntime: P/G');
     expect(setup.panels).toEqual([{ kind: 'space', item: 'P/Two words', scale: [-0.5, 0.2] }, { kind: 'time', item: 'P/G' }]);
     expect([setup.seed, setup.window]).toEqual([3, 600]);
+  });
+  it('have a button that checks what was seen, once the exercise is set up', () => {
+    const made = page('<!-- studio\nsystem: a\nworld: b\nspace: P/G\nlarge: arena\nseconds: 600\ncheck: hits 0.5 to 1 of 9 trials\n-->\n');
+    expect(made.setups[0]).toMatchObject({ large: 'arena', panels: [{ kind: 'space' }, { kind: 'trials', item: '600', key: 'seconds' }], checks: [{ hits: { trials: 9 } }] });
+    expect(made.html).toContain('data-check disabled>Check what I have seen</button>');
   });
   it('refuse a set-up that would be folded away', () => expect(() => page('<details><summary>S</summary>\n\n<!-- studio\nsystem: a\nworld: b\nspace: P/G\n-->\n\n</details>')).toThrow('outside'));
 });

@@ -1,0 +1,37 @@
+// What the cells of a group stand for, as the server says, in the words that figures of the library use.
+
+import type { CellNames } from '../protocol/messages';
+
+/** The name of the cell in a column and a row, from 1: "sequence 3, segment 5". Empty without one. */
+export function cellName(names: CellNames | null, x: number, y: number): string {
+  if (!names) return '';
+  const part = (all: string[], what: string, number: number) => all[number - 1] ?? (what && `${what} ${number}`);
+  return [part(names.rows, names.row, y), part(names.columns, names.column, x)].filter(Boolean).join(', ');
+}
+
+/** A name on an axis, from `start` on, in pixels. */
+interface AxisLabel {
+  text: string;
+  start: number;
+  at: number;
+}
+
+/** The names that fit beside `length` pixels: the ends first, then the middle, then the others. A run of the same name has one label. */
+export function axisLabels(names: string[], length: number, sizeOf: (text: string) => number, gap = 8): AxisLabel[] {
+  const step = length / names.length, runs: { text: string; middle: number }[] = [];
+  for (let i = 0; i < names.length;) {
+    let end = i + 1;
+    while (end < names.length && names[end] === names[i]) end++;
+    runs.push({ text: names[i]!, middle: ((i + end) / 2) * step });
+    i = end;
+  }
+  const order = [0, runs.length - 1, Math.floor((runs.length - 1) / 2), ...runs.keys()];
+  const out = new Map<number, AxisLabel & { end: number }>();
+  for (const k of order) {
+    const { text, middle } = runs[k]!, size = sizeOf(text);
+    if (!text || out.has(k) || size > length) continue;
+    const start = Math.max(0, Math.min(length - size, middle - size / 2)), end = start + size;
+    if ([...out.values()].every((o) => end + gap <= o.start || start >= o.end + gap)) out.set(k, { text, start, at: middle, end });
+  }
+  return [...out.values()].sort((a, b) => a.start - b.start).map(({ text, start, at }) => ({ text, start, at }));
+}

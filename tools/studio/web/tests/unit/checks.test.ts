@@ -1,0 +1,47 @@
+import { describe, expect, it } from 'vitest';
+import { findHits, findSeen, readCheck, untried } from '../../src/tutorial/checks';
+import { sinceLastChange, type Done } from '../../src/draw/trials';
+import type { Trial } from '../../src/protocol/messages';
+
+const run = (text: string) => [...text].map((c) => c === '+');
+
+describe('a check', () => {
+  it('is a share of hits, or a condition in words, with the values of parameters', () => {
+    expect(readCheck('hits 0.7 to 1 of 12 trials with Adaptive.eta = 0.02')).toEqual({ given: ['Adaptive.eta=0.02'], hits: { low: 0.7, high: 1, last: 12, trials: 12 } });
+    expect(readCheck('hits 0 to 0.5 of the last 50 of 350 trials with A/B.excGain = 0, C.Trigger Reset = 1')).toEqual({
+      given: ['A/B.excGain=0', 'C.Trigger Reset=1'],
+      hits: { low: 0, high: 0.5, last: 50, trials: 350 },
+    });
+    expect(readCheck('the robot turns when max(Bug/Motor(1..4,1)) > 0.5 and cycle > 100')).toEqual({ given: [], seen: { words: 'the robot turns', condition: 'max(Bug/Motor(1..4,1)) > 0.5 and cycle > 100' } });
+  });
+  it.each([['hits 0.7 of 12 trials', 'neither'], ['hits 0.9 to 0.1 of 9 trials', 'lower one first'], ['hits 0 to 1 of the last 9 of 5 trials', 'no trials'], ['hits 0 to 1 of 5 trials with eta', 'a parameter']])(
+    'is refused: %j',
+    (text, message) => expect(() => readCheck(text)).toThrow(message),
+  );
+  it('counts misses, and says what the text expects only when there are enough trials', () => {
+    const check = readCheck('hits 0.7 to 1 of 12 trials');
+    expect(findHits(check, run('-+++'))).toEqual({ right: null, text: '4 of 12 trials have finished. Run the others, then check again.' });
+    expect(findHits(check, run('-++++-++++++'))).toEqual({ right: true, text: 'You have seen 2 misses in 12 trials (17 %): right, the text expects 0 % to 30 %.' });
+    expect(findHits(check, run('------++++++')).right).toBe(false);
+  });
+  it('looks at the last trials of many, with the values that were tried', () => {
+    const check = readCheck('hits 0.9 to 1 of the last 2 of 4 trials with P.x = 1');
+    expect(untried(check)).toEqual({ right: null, text: 'With P.x = 1: not tried yet.' });
+    expect(findHits(check, run('--+++')).text).toBe('With P.x = 1: you have seen 0 misses in the last 2 trials (0 %): right, the text expects 0 % to 10 %.');
+  });
+  it('says whether a condition holds', () => {
+    const check = readCheck('a region stands out when max(A/B) > 0.1');
+    expect(findSeen(check, true)).toEqual({ right: true, text: 'Right, a region stands out.' });
+    expect(findSeen(check, false)).toEqual({ right: null, text: 'Not yet that a region stands out.' });
+  });
+});
+
+it('trials count from the last change on, in the course of the run that it belongs to', () => {
+  const trials = [0, 100, 200].map((first_cycle) => ({ first_cycle }) as Trial);
+  const done = (command: string, cycle: number, epoch: number) => ({ command, cycle, epoch, generation: 1 }) as Done;
+  const counted = (log: Done[], epoch: number) => sinceLastChange(trials, log, epoch).trials.length;
+  expect(counted([], 1)).toBe(3);
+  expect(counted([done('set', 150, 1), done('run_until', 160, 1)], 1)).toBe(1);
+  expect(counted([done('set', 150, 1)], 2)).toBe(3); // stopped since
+  expect(counted([done('set', 0, 1)], 1)).toBe(3);
+});

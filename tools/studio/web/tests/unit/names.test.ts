@@ -1,0 +1,45 @@
+import { describe, expect, it, vi } from 'vitest';
+import { axisLabels, cellName } from '../../src/draw/cell_names';
+import { Lattice } from '../../src/draw/lattice';
+import { momentText, spanText } from '../../src/draw/moment';
+import type { Group, SystemMessage } from '../../src/protocol/messages';
+
+vi.stubGlobal('matchMedia', () => ({ matches: false }));
+const { model } = await import('../../src/stores/model.svelte');
+const { sourceTitle, sourceTitles } = await import('../../src/panels/source_titles');
+
+const needs = { columns: ['temperature', 'hydration'], rows: [], column: '', row: '' };
+const memory = { columns: [], rows: [], column: 'segment', row: 'sequence' };
+
+describe('names of cells', () => {
+  it('are those of the row and the column, or say which of them it is', () => {
+    expect(cellName(needs, 2, 1)).toBe('hydration');
+    expect(cellName(memory, 5, 3)).toBe('sequence 3, segment 5');
+    expect(cellName({ ...needs, rows: ['red'] }, 1, 1)).toBe('red, temperature');
+    expect(cellName(null, 1, 1)).toBe('');
+    expect(Lattice.of({ width: 2, height: 1, places: null, names: needs }).title(1)).toBe('hydration (2, 1)');
+    expect(Lattice.of({ width: 2, height: 1, places: null, names: null }).title(1)).toBe('(2, 1)');
+  });
+  it('stand on an axis as far as they fit: the ends and the middle first, once for neighbours of the same name', () => {
+    const size = (text: string) => 10 * text.length;
+    expect(axisLabels(['aa', 'aa', 'bb', 'bb'], 100, size)).toEqual([{ text: 'aa', start: 15, at: 25 }, { text: 'bb', start: 65, at: 75 }]);
+    expect(axisLabels(['left', 'c', 'd', 'straight', 'e', 'f', 'right'], 200, size).map((l) => l.text)).toEqual(['left', 'straight', 'right']);
+    expect(axisLabels(['much too long'], 50, size)).toEqual([]);
+  });
+});
+
+describe('titles of traces', () => {
+  const group = (name: string, states: Group['states'], names: Group['names'], cells = 2) => ({ id: name, name, path: `P/${name}`, color: '', note: '', icon: null, type: '', width: cells, height: 1, cells, places: null, names, states });
+  const act = [{ name: 'act', label: 'Activity', output: true }, { name: 'excIn', label: 'Excitation' }];
+  model.system = { processes: [{ id: 'p', name: 'P', comments: [], groups: [group('Needs', act, needs), group('Errors', act, needs), group('Plain', act, null), group('One', act, null, 1)] }], connections: [], comments: [] } as unknown as SystemMessage;
+  it('are what the cells stand for', () => expect(sourceTitles(['P/Needs(1,1)', 'P/Needs:act(2,1)'])).toEqual(['temperature', 'hydration']));
+  it('have the group where there are several', () => expect(sourceTitles(['P/Needs(1,1)', 'P/Errors(1,1)'])).toEqual(['Needs: temperature', 'Errors: temperature']));
+  it('are the sources where nothing is known', () => expect(sourceTitles(['P/Plain(1,1)', 'mean(P/Needs)', 'P/Needs:excIn(1,1)'])).toEqual(['P/Plain(1,1)', 'mean(P/Needs)', 'P/Needs:excIn(1,1)']));
+  it('of a single one have its group', () => expect(['P/Needs(2,1)', 'mean(P/One)'].map(sourceTitle)).toEqual(['Needs: hydration', 'One']));
+});
+
+it('moments and spans are seconds, with the cycles in brackets', () => {
+  expect(momentText(310, 0.04)).toBe('12.4 s (cycle 310)');
+  expect(momentText(1, 1 / 30)).toBe('0.03 s (cycle 1)');
+  expect(spanText(400, 0.04)).toBe('16 s (400 cycles)');
+});
