@@ -5,6 +5,11 @@
 #include <fmt/format.h>
 
 #include "tools/api/edit/part_operations.h"
+#include "tools/api/open/sources.h"
+#include "tools/plot/figure.h"
+#include "tools/plot/structure.h"
+#include "tools/plot/world_map.h"
+#include "tools/studio/server/base64.h"
 #include "tools/studio/server/commands/shared.h"
 #include "tools/studio/server/page_paths.h"
 #include "tools/studio/server/recent.h"
@@ -44,8 +49,7 @@ json run_until(Session& s, const Request& r) {
     if (length.trials) title += fmt::format(" {} trials", *length.trials);
     if (length.seconds) title += fmt::format(" {} s", *length.seconds);
     if (!length.until.empty())
-        title +=
-            fmt::format("{} until {}", length.trials || length.seconds ? " or" : "", length.until.text);
+        title += fmt::format("{} until {}", length.trials || length.seconds ? " or" : "", length.until.text);
     s.log({.command = "run_until", .title = title, .scripts = of_run(length)});
     return json::object();
 }
@@ -76,6 +80,14 @@ json step_run(Session& s, const Request& r) {
         throw;
     }
     return {{"cycle", s.run().cycle()}};
+}
+
+json stop_run(Session& s, const Request&) {
+    const json before = s.system_message();
+    s.reset();
+    // A module that was switched on or off says now what cells stand for.
+    if (json now = s.system_message(); now != before) s.pages.broadcast(std::move(now));
+    return json::object();
 }
 
 /// Begins the run again with another input; with the one before when that fails.
@@ -169,6 +181,31 @@ json list_shipped(Session& s, const Request&) {
     return {{"worlds", worlds}, {"systems", std::move(systems)}};
 }
 
+/// The world of a system, or the diagram of one without a world.
+json example_picture(Session& s, const Request& r) {
+    constexpr double pixels = 320;  // for about half as many of the page
+    const auto path = [&](const std::string& name) { return name.empty() ? name : shipped_path(s, name); };
+    RunInput input;
+    input.system = path(r.text("system")), input.world = path(r.text("world"));
+    Diagnostics diagnostics;
+    const auto loaded = load(input, diagnostics);
+    throw_errors(diagnostics);
+    plot::Picture picture;
+    if (const auto* world = loaded->world.get()) {
+        const plot::WorldMap map(*world, {}, pixels, 0, 0);
+        picture = {map.width(), map.height(), [map, robots = world->bugs()](plot::Canvas& canvas) {
+                       map.draw_ground(canvas), map.draw_movable_objects(canvas), map.draw_targets(canvas);
+                       for (std::size_t i = 0; i < robots; ++i) map.draw_robot(canvas, i, false);
+                   }};
+    } else {
+        plot::PlotSpec spec;
+        spec.kind = plot::PlotSpec::Kind::diagram;
+        picture = plot::structure_plot(spec, loaded->system, loaded->registry, nullptr, input.seed, "");
+        picture = plot::scaled(picture, {pixels, true}, plot::Format::png);
+    }
+    return {{"content", base64(plot::render(picture, plot::Format::png))}};
+}
+
 json quit_program(Session& s, const Request&) {
     if (!s.quit) throw InputError("this session cannot be ended by a page");
     s.quit();
@@ -204,7 +241,7 @@ std::vector<Command> run_commands() {
          .apply = step_run},
         {.name = "stop",
          .doc = "Goes back to cycle 0 with the weights of the beginning. Parameters keep their values.",
-         .apply = [](Session& s, const Request&) { return s.reset(), json::object(); }},
+         .apply = stop_run},
         {.name = "restart",
          .doc = "Goes back to cycle 0 with another seed.",
          .arguments = {optional("seed", whole(), nullptr, "by default the present one")},
@@ -236,6 +273,14 @@ std::vector<Command> run_commands() {
          .doc = "Lists the worlds and the systems that come with Forage.",
          .result = "{ worlds: string[]; systems: ShippedSystem[] }",
          .apply = list_shipped},
+        {.name = "example_picture",
+         .doc =
+             "Draws a small picture of a system that comes with Forage: its world, or its diagram. Returns a "
+             "PNG file in base64.",
+         .arguments = {{"system", path(), "below the folder of what comes with Forage"},
+                       optional("world", path(), "")},
+         .result = "{ content: string }",
+         .apply = example_picture},
         {.name = "quit", .doc = "Ends the program.", .apply = quit_program},
     };
 }

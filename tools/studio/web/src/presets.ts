@@ -69,7 +69,7 @@ function build(): void {
   if (model.world) dock.open({ kind: 'arena' }, { beside: diagram, inactive: true });
 }
 
-/** The panel in question in the largest place, plots at its right, and below it the arena, with the diagram behind it. */
+/** The panel in question in the largest place, plots at its right, and the arena below it or below them, with the diagram behind it. */
 function around(large: PanelState, others: PanelState[]): void {
   const api = dock.api!, kept = clear();
   const main = dock.open(large, kept ? { beside: kept.id, direction: frame.small ? 'above' : 'right' } : {})!;
@@ -83,12 +83,15 @@ function around(large: PanelState, others: PanelState[]): void {
   }
   const width = Math.round((api.width - (kept ? tutorialWidth(api.width) : 0)) * 0.4);
   const right: string[] = [];
-  for (const p of others) {
-    const above = right[right.length - 1];
-    right.push(dock.open(p, above ? { beside: above, direction: 'below' } : { beside: main, direction: 'right', width })!);
+  const column = () => (right.length ? { beside: right[right.length - 1], direction: 'below' as const } : { beside: main, direction: 'right' as const, width });
+  for (const p of others) right.push(dock.open(p, column())!);
+  // A single plot leaves room for the arena below it.
+  let view: string | null = null;
+  for (const p of views) {
+    if (view) dock.open(p, { beside: view, inactive: true });
+    else if (right.length < 2) right.push(view = dock.open(p, column())!);
+    else view = dock.open(p, { beside: main, direction: 'below', height: Math.round(api.height * 0.42) });
   }
-  let below: string | null = null;
-  for (const p of views) below = dock.open(p, below ? { beside: below, inactive: true } : right.length ? { beside: main, direction: 'below', height: Math.round(api.height * 0.42) } : { beside: main, direction: 'right', width });
   api.getPanel(main)?.api.setActive();
   kept?.api.setSize({ width: tutorialWidth(api.width) });
   for (const id of right) api.getPanel(id)?.api.setSize({ width, height: Math.round(api.height / right.length) });

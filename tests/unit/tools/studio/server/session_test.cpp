@@ -238,6 +238,23 @@ TEST_CASE("whether a condition holds is said at any time") {
     CHECK(f.ask({{"command", "holds"}, {"condition", "cycles"}})["ok"] == false);
 }
 
+TEST_CASE("the examples have small pictures: of a world, or of the diagram") {
+    const std::string systems = FORAGE_SOURCE_DIR "/systems";
+    Session session(
+        Fixture::input(), [](int, bool, const std::string&) {}, {}, systems);
+    for (const json& one : {json{{"system", "cookbook/oscillator.iqr"}},
+                            json{{"system", "sec_maze.iqr"}, {"world", "worlds/double_t_maze.world"}}}) {
+        json command = one;
+        command["command"] = "example_picture";
+        const json reply = session.execute(-1, command);
+        INFO(reply.dump());
+        test::check_reply(command, reply);
+        REQUIRE(reply["ok"] == true);
+        CHECK(reply["result"]["content"].get<std::string>().starts_with("iVBORw0KGgo"));  // a PNG file
+    }
+    CHECK(session.execute(-1, {{"command", "example_picture"}, {"system", "../x.iqr"}})["ok"] == false);
+}
+
 TEST_CASE("every system that comes with Forage to begin with has a sentence, and a world if it has a robot") {
     const std::string systems = FORAGE_SOURCE_DIR "/systems";
     Session session(

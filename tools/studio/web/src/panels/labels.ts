@@ -26,14 +26,20 @@ export function shortened(name: string, width: number, maxLines: number, measure
   return [...lines.slice(0, most - 1), lines.slice(most - 1).join(' ')].map((l) => cut(l, width, measure)).filter(Boolean);
 }
 
-const widths = new Map<string, number>();
-let context: CanvasRenderingContext2D | null = null;
+/** How the page writes texts of a weight. */
+function measured(weight: number): Measure {
+  const widths = new Map<string, number>();
+  let context: CanvasRenderingContext2D | null = null;
+  return (text) => {
+    if (!context) {
+      context = document.createElement('canvas').getContext('2d')!;
+      context.font = `${weight} 100px ${getComputedStyle(document.body).fontFamily}`;
+    }
+    if (!widths.has(text)) widths.set(text, context.measureText(text).width / 100);
+    return widths.get(text)!;
+  };
+}
 /** As the page writes names. */
-export const measure: Measure = (text) => {
-  if (!context) {
-    context = document.createElement('canvas').getContext('2d')!;
-    context.font = `600 100px ${getComputedStyle(document.body).fontFamily}`;
-  }
-  if (!widths.has(text)) widths.set(text, context.measureText(text).width / 100);
-  return widths.get(text)!;
-};
+export const measure = measured(600);
+/** As it writes other texts. */
+export const measurePlain = measured(400);

@@ -30,16 +30,34 @@ export default async function({ site, folder, start, open, faults, step }) {
   });
   await picture(page, 'formulas');
 
-  step('the first exercise of each part, or every one with FORAGE_WHOLE, is set up: its system is opened, no command is refused, each of its plots gets numbers, and the diagram shows the process that it is about');
+  step(
+    'the first exercise of each part, or every one with FORAGE_WHOLE, is set up: its system is opened, no command is refused, each of its plots gets numbers, the panel in question is the largest, and the diagram shows the process that it is about',
+  );
   const refused = page.locator('.notice.error');
   const about = {
     1: ['Bug', 'Selection', 'Bug', 'Bug'],
-    2: ['Reactive Layer', 'Reactive Layer', 'Selection', 'Reactive Layer', 'Bug'],
+    2: ['Reactive Layer', 'Selection', 'Selection', 'Reactive Layer', 'Bug'],
     3: Array(8).fill('Adaptive'),
     4: Array(9).fill('Contextual'),
     5: ['Contextual', 'Contextual', 'Contextual', 'Sequential'],
     6: Array(5).fill('Allostasis'),
   };
+  /** The panels in question: those that the exercise asks about. */
+  const asked = {
+    1: ['Arena', 'Diagram', 'Bug/Red - Hue', 'Bug/Light'],
+    2: ['Diagram', 'Selection/Motor In', 'Diagram', 'Arena', 'Over time'],
+    3: ['Trials', 'Adaptive/Weights Display', 'Adaptive/Weights Display', 'discrepancy over time', 'Adaptive/prototype', 'Adaptive/Weights Display', 'Trials', 'Trials'],
+    4: ['Contextual/Empty', 'Contextual/Empty', 'Contextual/Selected', 'Contextual/Selected', 'Contextual/Empty', 'Contextual/Empty', 'Contextual/Selected', 'Contextual/Empty', 'Contextual/Selected'],
+    5: ['Trials', 'Trials', 'Trials', 'Trials'],
+    6: ['Over time', 'Over time', 'Over time', 'Needs: security over time', 'Over time'],
+  };
+  /** The titles of the panels that have the largest place, but for the tutorial. */
+  const largest = () =>
+    page.evaluate(() => {
+      const groups = [...document.querySelectorAll('.dv-groupview')].filter((g) => !g.querySelector('[aria-label="Tutorial"]'));
+      const area = (g) => g.offsetWidth * g.offsetHeight, most = Math.max(...groups.map(area));
+      return groups.filter((g) => area(g) === most).map((g) => g.querySelector('.dv-active-tab')?.textContent.trim());
+    });
   for (const [part, processes] of Object.entries(about)) {
     await tutorial.getByRole('button', { name: part, exact: true }).click();
     await tutorial.locator('[data-set]:enabled').first().waitFor({ state: 'detached' }); // they act once their exercise is set up
@@ -54,11 +72,40 @@ export default async function({ site, folder, start, open, faults, step }) {
         const plots = [...document.querySelectorAll('[aria-label^="Space plot of"] canvas.heat')];
         return plots.every((c) => c.width > 0 && c.getContext('2d').getImageData(0, 0, 1, 1).data[3] > 0);
       });
+      assert.deepEqual(await largest(), [asked[part][i]], `${part}, set-up ${i + 1}: the largest panel`);
+      await picture(page, `${part}-${i + 1}`);
+      await page.locator('.dv-tab', { hasText: 'Diagram' }).click();
       const shown = page.getByRole('group', { name: 'Diagram' }).getByRole('group', { name: 'Processes' }).locator('button.on');
       assert.equal(await shown.textContent(), processes[i], `${part}, set-up ${i + 1}: the diagram`);
       assert.equal(await refused.count(), 0, `${part}, set-up ${i + 1}: ${await refused.allTextContents()}`);
     }
   }
+
+  step('traces and cells are called what they stand for, and moments are seconds, with the cycle in brackets');
+  await tutorial.locator('[data-open="0"]').click();
+  await until(page, 'the names of the traces', () => [...document.querySelectorAll('.key .name')].map((n) => n.textContent).join() === 'efficiency,fairness,stability');
+  await page.getByRole('button', { name: 'Step one cycle' }).click();
+  await page.getByText('0.04 s (cycle 1)').waitFor();
+  await page.getByRole('application', { name: 'Cells of Allostasis/Needs' }).focus();
+  await page.keyboard.press('ArrowRight');
+  await page.getByRole('group', { name: 'Space plot of Allostasis/Needs' }).getByText('hydration (2, 1)').waitFor();
+
+  step('an exercise says in words whether what was seen is right, when it is asked');
+  await tutorial.getByRole('button', { name: '2', exact: true }).click();
+  const checked = tutorial.locator('[data-setup="1"]');
+  assert.ok(await checked.getByRole('button', { name: 'Check what I have seen' }).isDisabled());
+  await checked.getByRole('button', { name: 'Set it up' }).click();
+  await checked.and(tutorial.locator('.active')).waitFor();
+  assert.equal(await checked.getByRole('listitem').count(), 0);
+  await checked.getByRole('button', { name: 'Check what I have seen' }).click();
+  await checked.getByText('0 of 30 trials have finished. Run the others, then check again.').waitFor();
+  await page.getByRole('button', { name: 'Max', exact: true }).click();
+  await page.getByRole('group', { name: 'Trials' }).getByRole('button', { name: 'Run', exact: true }).click();
+  await page.getByText('14 of 30 reached the target').waitFor();
+  await page.getByRole('button', { name: 'Run', exact: true }).first().waitFor();
+  await checked.getByRole('button', { name: 'Check what I have seen' }).click();
+  await checked.getByText('You have seen 16 misses in 30 trials (53 %): right, the text expects 30 % to 80 %.').waitFor();
+  await picture(page, 'tutorial-checked');
 
   step('in narrow windows all that it names is seen: the trials, and plots that can be read');
   await tutorial.getByRole('button', { name: '5', exact: true }).click();
@@ -66,8 +113,9 @@ export default async function({ site, folder, start, open, faults, step }) {
     await page.setViewportSize({ width, height });
     await tutorial.locator('[data-open="0"]').click();
     await tutorial.locator('.setup.active [data-open="0"]').waitFor();
-    for (const tab of ['Contextual/Proposal raster', 'mean(Contextual/Entropy) over time', 'Trials', 'Diagram', 'Arena']) {
+    for (const tab of ['Contextual/Proposal raster', 'Entropy over time', 'Trials', 'Diagram', 'Arena']) {
       await page.locator('.dv-tab', { hasText: tab }).click();
+      if (tab === 'Diagram') assert.deepEqual(await largest(), width > 720 ? ['Trials'] : ['Diagram'], `the largest panel at ${width}`);
       await until(page, `${tab} at ${width} x ${height}`, (t) => [...document.querySelectorAll('.dv-groupview')].some((g) => g.querySelector('.dv-active-tab')?.textContent.includes(t) && g.offsetHeight > 200 && g.offsetWidth > 300), tab);
     }
     await until(page, 'the trials', () => [...document.querySelectorAll('.readings > div')].some((d) => d.textContent.startsWith('trials') && d.getBoundingClientRect().bottom <= d.parentElement.getBoundingClientRect().bottom));

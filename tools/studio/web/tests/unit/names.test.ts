@@ -31,7 +31,11 @@ describe('names of cells', () => {
 describe('titles of traces', () => {
   const group = (name: string, states: Group['states'], names: Group['names'], cells = 2) => ({ id: name, name, path: `P/${name}`, color: '', note: '', icon: null, type: '', width: cells, height: 1, cells, places: null, names, states });
   const act = [{ name: 'act', label: 'Activity', output: true }, { name: 'excIn', label: 'Excitation' }];
-  model.system = { processes: [{ id: 'p', name: 'P', comments: [], groups: [group('Needs', act, needs), group('Errors', act, needs), group('Plain', act, null), group('One', act, null, 1)] }], connections: [], comments: [] } as unknown as SystemMessage;
+  model.system = {
+    processes: [{ id: 'p', name: 'P', comments: [], groups: [group('Needs', act, needs), group('Errors', act, needs), group('Plain', act, null), group('One', act, null, 1)] }],
+    connections: [],
+    comments: [],
+  } as unknown as SystemMessage;
   it('are what the cells stand for', () => expect(sourceTitles(['P/Needs(1,1)', 'P/Needs:act(2,1)'])).toEqual(['temperature', 'hydration']));
   it('have the group where there are several', () => expect(sourceTitles(['P/Needs(1,1)', 'P/Errors(1,1)'])).toEqual(['Needs: temperature', 'Errors: temperature']));
   it('are the sources where nothing is known', () => expect(sourceTitles(['P/Plain(1,1)', 'mean(P/Needs)', 'P/Needs:excIn(1,1)'])).toEqual(['P/Plain(1,1)', 'mean(P/Needs)', 'P/Needs:excIn(1,1)']));
