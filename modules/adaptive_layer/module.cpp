@@ -72,7 +72,7 @@ void AdaptiveLayerModule::describe(ModuleSpec<AdaptiveLayerModule>& s) {
             const int width = std::max(1, ports.inputs[input].shape.width);
             CellNames out;
             for (int x = 0; x < shape.width; ++x)
-                out.columns.push_back(fmt::format("to cell {} of the response", x / width + 1));
+                out.columns.push_back(fmt::format("to cell {}", x / width + 1));
             return out;
         })
         .doc("The k-th picture shows the weights from the stimuli to cell k of the response.");
