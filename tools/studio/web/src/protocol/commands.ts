@@ -7,10 +7,15 @@ export interface Commands {
     arguments: {};
     result: {};
   };
-  /** Starts the run, and pauses it when the first robot has finished so many more trials, or when a condition holds. */
+  /** Starts the run, and pauses it when the first robot has finished so many more trials, after so many seconds of the world, or when a condition holds. */
   run_until: {
-    arguments: { trials?: number | null; condition?: string | null };
+    arguments: { trials?: number | null; seconds?: number | null; condition?: string | null };
     result: {};
+  };
+  /** Says whether a condition holds now. */
+  holds: {
+    arguments: { condition: string };
+    result: { holds: boolean };
   };
   /** Pauses the run. */
   pause: {
@@ -51,6 +56,11 @@ export interface Commands {
   shipped: {
     arguments: {};
     result: { worlds: string[]; systems: ShippedSystem[] };
+  };
+  /** Draws a small picture of a system that comes with Forage: its world, or its diagram. Returns a PNG file in base64. */
+  example_picture: {
+    arguments: { system: string; world?: string | null };
+    result: { content: string };
   };
   /** Ends the program. */
   quit: {
