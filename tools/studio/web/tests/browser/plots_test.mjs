@@ -96,8 +96,8 @@ export default async function({ folder, start, open, faults, step }) {
   await until(page, 'the mean over time', () => document.querySelector('.key .name')?.textContent === 'mean(Bug/Motor:act(4..6,1..2))');
   await show('Bug/Motor');
   await chosen.getByRole('button', { name: 'Cells', exact: true }).click();
-  await until(page, 'six cells over time', () => [...document.querySelectorAll('.key .name')].some((n) => n.textContent === 'Bug/Motor:act(6,2)'));
-  assert.equal((await keysOf()).filter((k) => /^Bug\/Motor:act\(\d,\d\)$/.test(k)).length, 6);
+  await until(page, 'six cells over time', () => [...document.querySelectorAll('.key .name')].some((n) => n.textContent === 'ahead 75 %, right 25 %'));
+  assert.equal((await keysOf()).filter((k) => /^ahead \d+ %, (left 25 %|straight|right 25 %)$/.test(k)).length, 6);
 
   step('space: the selection is dragged to where it should be shown, and onto a plot over time');
   await show('Bug/Motor');
@@ -111,7 +111,7 @@ export default async function({ folder, start, open, faults, step }) {
   await chosen.getByText('2 cells, mean').waitFor();
   await chosen.getByRole('button', { name: 'Cells', exact: true }).dragTo(dropped.locator('.u-over'));
   await dropped.getByText('Bug/Motor:act(3,4)').waitFor();
-  assert.deepEqual(await dropped.locator('.key .name').allInnerTexts(), ['mean(Bug/Motor:act(1..2,1..2))', 'Bug/Motor:act(3,3)', 'Bug/Motor:act(3,4)']);
+  assert.deepEqual(await dropped.locator('.key .name').allInnerTexts(), ['mean(Bug/Motor:act(1..2,1..2))', 'ahead 50 %, left 50 %', 'ahead 25 %, left 50 %']);
   await find(page, 'Record to a file');
   const sampler = page.locator('.panel', { hasText: 'If it is there' });
   await show('Bug/Light');
@@ -204,7 +204,7 @@ export default async function({ folder, start, open, faults, step }) {
   await inspector.getByRole('button', { name: 'Raster' }).click();
   const raster = plot('Raster plot of Bug/Motor');
   await raster.getByLabel('State').selectOption('excIn');
-  await raster.getByLabel('Cycles shown').selectOption({ label: '100 cycles' });
+  await raster.getByLabel('Time shown').selectOption('100');
   await page.getByRole('button', { name: 'Run', exact: true }).click();
   const begin = await page.evaluate(() => Number(document.querySelector('[aria-label="Moment of the run"]').value));
   await cycle(begin + 60);
@@ -212,7 +212,7 @@ export default async function({ folder, start, open, faults, step }) {
   await until(page, 'a picture of 100 cycles', () => document.querySelector('[aria-label="Raster plot of Bug/Motor"] canvas').width === 100);
   await raster.getByRole('application').focus();
   await page.keyboard.press('End');
-  await raster.getByText(/^\(9, 9\) cycle \d+ [\d.]+$/).waitFor();
+  await raster.getByText(/^back 100 %, right 100 % \(9, 9\) [\d.]+ s \(cycle \d+\) [\d.]+$/).waitFor();
   png(await saved(raster, 'png'));
   const rows = (await saved(raster, 'csv')).trim().split('\n').map((l) => l.replace(/"[^"]*"/g, 'name').split(','));
   assert.ok(rows.length > 50 && rows.every((r) => r.length === 82), `${rows.length} rows`);
