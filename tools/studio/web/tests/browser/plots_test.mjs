@@ -110,7 +110,7 @@ export default async function({ folder, start, open, faults, step }) {
   await drag([3, 3], [3, 4]);
   await chosen.getByText('2 cells, mean').waitFor();
   await chosen.getByRole('button', { name: 'Cells', exact: true }).dragTo(dropped.locator('.u-over'));
-  await dropped.getByText('Bug/Motor:act(3,4)').waitFor();
+  await dropped.getByText('ahead 25 %, left 50 %').waitFor();
   assert.deepEqual(await dropped.locator('.key .name').allInnerTexts(), ['mean(Bug/Motor:act(1..2,1..2))', 'ahead 50 %, left 50 %', 'ahead 25 %, left 50 %']);
   await find(page, 'Record to a file');
   const sampler = page.locator('.panel', { hasText: 'If it is there' });
@@ -177,7 +177,7 @@ export default async function({ folder, start, open, faults, step }) {
   assert.equal(await moment(), before, 'the last moment of the chosen part');
   await page.keyboard.press('Shift+ArrowLeft');
   assert.ok(parseFloat(await moment()) < parseFloat(before));
-  assert.match(await time.getByRole('status').innerText(), /^[\d.]+ s: mean\(Bug\/Motor:act\(4\.\.6,1\.\.2\)\) [\d.]+, /);
+  assert.match(await time.getByRole('status').innerText(), /^[\d.]+ s \(cycle \d+\): mean\(Bug\/Motor:act\(4\.\.6,1\.\.2\)\) [\d.]+, /);
   await picture(page, 'zoom');
   await page.keyboard.press('Escape');
   await time.getByRole('button', { name: 'Whole' }).waitFor({ state: 'detached' });
