@@ -272,7 +272,7 @@ export default async function({ folder, start, open, faults, step }) {
   await page.keyboard.press('Control+z');
   await time.getByRole('button', { name: 'Change Bug/Lamp(17,1)' }).waitFor();
   await page.getByRole('button', { name: 'Run', exact: true }).click();
-  await until(page, 'a value of the renamed group', () => [...document.querySelectorAll('.key')].some((k) => k.textContent.includes('Bug/Lamp(17,1)') && /\d$/.test(k.querySelector('.number').textContent)));
+  await until(page, 'a value of the renamed group', () => [...document.querySelectorAll('.key')].some((k) => k.querySelector('[aria-label*="Bug/Lamp(17,1)"]') && /\d$/.test(k.querySelector('.number').textContent)));
   await page.getByRole('button', { name: 'Pause', exact: true }).click();
 
   step('a group that is deleted takes its panels with it, and one undo brings both back');
