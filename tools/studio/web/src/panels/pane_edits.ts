@@ -4,11 +4,11 @@ import { connect, edit } from '../edit/operations';
 import { removeItems } from '../edit/menus';
 import { apart, freshName } from '../edit/places';
 import { palette } from '../edit/palette.svelte';
+import { revealConnection } from '../edit/reveal';
 import { tools } from '../edit/tool.svelte';
 import type { Operation } from '../protocol/commands';
 import type { Process } from '../protocol/messages';
 import { actions } from '../stores/actions.svelte';
-import { frame } from '../stores/frame.svelte';
 import { model } from '../stores/model.svelte';
 import { selection } from '../stores/selection.svelte';
 import { boxSize, clickedAnchor, facingAnchor, groupAt, inside, scale, toFile, type PageBox } from './diagram';
@@ -148,7 +148,7 @@ export class PaneEdits {
       source_anchor: anchor ?? (from && !from.phantom ? facingAnchor(from.box, vertices[0] ?? box.box) : 1),
       target_anchor: number ?? (from && !box.phantom ? facingAnchor(box.box, vertices[vertices.length - 1] ?? from.box) : 1),
       [list]: vertices.map(toFile),
-    }).then((id) => id && !frame.narrow && selection.select(id));
+    }).then((id) => id && revealConnection(id));
   }
 
   /** A double click on the canvas writes a comment. Beside a box, it was the box that was meant. */
