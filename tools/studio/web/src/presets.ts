@@ -21,7 +21,8 @@ const find = (name: string) => model.groups.find((g) => (name.startsWith('/') ? 
 
 /** Opens the panels of a preset, and closes others. */
 export function applyPreset(preset: Preset): void {
-  if (preset.diagram || model.groups.length === 0) return build();
+  if (preset.diagram) return build(false);
+  if (model.groups.length === 0) return build(frame.room === 'wide');
   const spaces = preset.spaces.map(find).filter((g) => g !== undefined);
   if (spaces.length === 0) spaces.push(...model.groups.slice(0, 2));
   const times = preset.times.map(find).filter((g) => g !== undefined);
@@ -34,9 +35,7 @@ let tutorial: PanelState = { kind: 'tutorial' };
 /** Opens the tutorial at the left, or below on a small window: at a part of it, or where it was. */
 export function openTutorial(page?: string): void {
   if (page) tutorial = { kind: 'tutorial', page } as PanelState;
-  // It takes the place of the tree, and on a middling window that of the inspector.
-  frame.tree = false;
-  if (innerWidth < 1500) frame.inspector = false;
+  frame.lend();
   dock.open(tutorial, frame.small ? { direction: 'below' } : { direction: 'left', width: tutorialWidth(dock.api?.width ?? 0) });
 }
 /** Opens the tutorial, or closes it when it is seen. */
@@ -61,12 +60,13 @@ function clear() {
   return kept;
 }
 
-/** The diagram, with the arena behind it. */
-function build(): void {
+/** The diagram, with the arena behind or beside it. */
+function build(beside: boolean): void {
   if (!dock.api) return;
   const kept = clear();
   const diagram = dock.open({ kind: 'diagram' }, kept ? { beside: kept.id, direction: frame.small ? 'above' : 'right' } : {})!;
-  if (model.world) dock.open({ kind: 'arena' }, { beside: diagram, inactive: true });
+  if (!model.world) return;
+  dock.open({ kind: 'arena' }, { beside: diagram, inactive: true, ...(beside ? { direction: 'right', width: Math.round(0.42 * dock.api.width) } : {}) });
 }
 
 /** The panel in question in the largest place, plots at its right, and the arena below it or below them, with the diagram behind it. */

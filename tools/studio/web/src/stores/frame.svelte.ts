@@ -36,6 +36,23 @@ class Frame {
   closeDrawers(): void {
     this.tree = this.inspector = false;
   }
+  /** The drawers that were open before the tutorial took their place; null while it is closed. */
+  private lent: { tree: boolean; inspector: boolean } | null = null;
+  /** Closes the tree, and on a middling window the inspector, for the tutorial. */
+  lend(): void {
+    const drawers = narrow.matches ? this.wide : this;
+    this.lent ??= { tree: drawers.tree, inspector: drawers.inspector };
+    drawers.tree = false;
+    if (innerWidth < 1500) drawers.inspector = false;
+  }
+  /** Opens what was closed for the tutorial. */
+  takeBack(): void {
+    const { tree, inspector } = this.lent ?? {};
+    this.lent = null;
+    const drawers = narrow.matches ? this.wide : this;
+    drawers.tree ||= !!tree;
+    drawers.inspector ||= !!inspector;
+  }
   private before: Element | null = null;
   /** Opens the inspector for writing. */
   openInspector(): void {

@@ -190,6 +190,7 @@ export default async function({ site, folder, start, open, faults, step }) {
   step('its button closes the tutorial, and opens it again');
   await page.getByRole('button', { name: 'Tutorial', exact: true }).click();
   await tutorial.waitFor({ state: 'detached' });
+  for (const drawer of [page.getByRole('navigation'), page.getByRole('region', { name: 'Inspector' })]) await drawer.waitFor(); // what it had taken the place of
   await page.getByRole('button', { name: 'Tutorial', exact: true }).click();
   await tutorial.waitFor();
 
