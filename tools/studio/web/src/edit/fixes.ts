@@ -1,6 +1,7 @@
 // What mends a problem, as buttons beside it.
 import type { DocumentProblem } from '../protocol/messages';
 import { model } from '../stores/model.svelte';
+import { selection } from '../stores/selection.svelte';
 import { edit } from './operations';
 
 interface Fix {
@@ -20,5 +21,8 @@ export function fixesOf(p: DocumentProblem): Fix[] {
 /** The robots of the world that no module of the system names. */
 export const freeRobots = (): string[] => (model.world?.robots ?? []).map((r) => r.name).filter((name) => !model.processes.some((p) => p.module && p.name === name));
 
-/** Adds a process with the groups of a robot. */
-export const addRobot = (name: string, place: [number, number] = [40, 40]) => edit({ do: 'add_robot', name, x: place[0], y: place[1] }, `Add the robot ${name}`);
+/** Adds a process with the groups of a robot, and shows them. */
+export async function addRobot(name: string, place: [number, number] = [40, 40]): Promise<void> {
+  const id = (await edit({ do: 'add_robot', name, x: place[0], y: place[1] }, `Add the robot ${name}`))?.[0];
+  if (id) selection.process = id;
+}

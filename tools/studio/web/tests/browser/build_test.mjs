@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { picture, until } from './support.mjs';
+import { find, picture, until } from './support.mjs';
 
 // What the tutorial says of the groups: place on the page, size, and the parameters that differ from the defaults.
 const relay = {};
@@ -49,7 +49,9 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await page.getByRole('menuitem', { name: 'New' }).click();
   await page.getByRole('dialog', { name: 'New system' }).getByLabel('Name').fill('Mine');
   await page.keyboard.press('Enter');
-  await page.getByText('The system has no processes yet').waitFor();
+  await page.getByText('The system is empty').waitFor();
+  await page.getByRole('group', { name: 'Arena' }).waitFor(); // beside the diagram, which then takes its place
+  await find(page, 'layout: build');
 
   step('three processes, placed by the mouse');
   for (const [name, x, y] of [['Bug', 150, 400], ['Reactive Layer', 400, 150], ['Selection', 650, 400]]) {
@@ -265,9 +267,14 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await begin.getByLabel('Name').fill('Empty');
   await begin.getByRole('button', { name: 'Create' }).click();
   await page.getByRole('button', { name: 'Add the robot Bug' }).first().click(); // in either pane
-  await tab('Bug');
   for (const name of ['Motor', 'Proximity sensor', 'Target sensor']) await diagram.locator(`.svelte-flow__node[aria-label="${name}"]`).waitFor(); // its text may be shorter
   assert.equal(await problems.count(), 0);
+  await page.getByRole('button', { name: 'Close the inspector' }).click();
+  await page.getByRole('button', { name: 'Connect excitatory' }).first().click();
+  for (const end of ['Proximity sensor', 'Motor']) await diagram.locator(`.svelte-flow__node[aria-label="${end}"]`).first().click();
+  await field('Cells').waitFor(); // its form is opened again, as cells are to be chosen
+  await inspector.getByText(/^Read by Gazebo Bug as Motor\. The most active cell/).waitFor();
+  await page.keyboard.press('Control+z');
   await box(exact('Motor')).press('Delete');
   await page.getByRole('button', { name: '1 problem' }).click();
   await page.getByRole('group', { name: 'Problems' }).getByRole('button', { name: 'Create group 9 × 9' }).click();
