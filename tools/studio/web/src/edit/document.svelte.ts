@@ -22,6 +22,10 @@ class DocumentState {
     for (const p of this.problems) if (p.item) all.set(p.item, [...(all.get(p.item) ?? []), p]);
     return all;
   });
+  /** What users call a type; its name in the file when it has no other. */
+  typeLabel(kind: 'neurons' | 'synapses' | 'modules', type: string): string {
+    return this.types?.[kind].find((t) => t.type === type)?.label || type;
+  }
   of(item: string): DocumentProblem[] {
     return this.byItem.get(item) ?? [];
   }

@@ -40,6 +40,7 @@ export default async function({ folder, context, start, open, faults, step }) {
   await row('system').click();
   await pageIs('the system');
   await inspector.getByLabel('Cycles per second').waitFor();
+  await inspector.getByText('For the original iqr').click();
   await inspector.getByLabel('Port', { exact: true }).fill('54923');
   await inspector.getByLabel('Port', { exact: true }).press('Enter');
   await until(page, 'a change', () => document.title.startsWith('●'));
@@ -121,6 +122,7 @@ export default async function({ folder, context, start, open, faults, step }) {
 
   step('the end of a line is chosen in its form');
   await find(page, 'CR to Threshold CR');
+  await inspector.getByText('Line and note').click();
   const leaves = inspector.getByLabel('Leaves at');
   await leaves.selectOption({ label: 'Bottom 2' });
   await until(page, 'the line', () => {

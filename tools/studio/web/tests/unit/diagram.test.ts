@@ -4,7 +4,7 @@ import { fromModule, pageSvg, toModule, wrapped } from '../../src/panels/page_sv
 import { moduleLinks } from '../../src/panels/module_links';
 import { connectable } from '../../src/edit/ends';
 import { aligned, apart, distributed, freshName } from '../../src/edit/places';
-import { holds, parseTuples, spanned, tupleText } from '../../src/edit/forms/cells';
+import { CellPlan, holds, parseTuples, spanned, tupleText } from '../../src/edit/forms/cells';
 import { anchor, middleOfLongest, nearestPart, roundedPath, type Point } from '../../src/panels/line';
 import type { Connection, ConnectionLine, Group, Process, SystemMessage } from '../../src/protocol/messages';
 
@@ -234,6 +234,22 @@ describe('geometry', () => {
     expect(aligned(boxes, 'right').map((b) => b.x)).toEqual([300, 300, 300]);
     expect(aligned(boxes, 'row').map((b) => b.y)).toEqual([10, 10, 10]);
     expect(distributed(boxes, 'x').map((b) => b.x)).toEqual([0, 150, 300]);
+  });
+});
+
+describe('the cells of a group', () => {
+  const plan = (columns: number, rows: number) => new CellPlan(Array.from({ length: columns * rows }, (_, i) => [(i % columns) + 1, Math.floor(i / columns) + 1] as [number, number]), 256, 200);
+  it('of a long row stand below each other, large enough to be pointed at, with their numbers', () => {
+    const rays = plan(32, 1);
+    expect([rays.columns, rays.rows, rays.size, rays.numbered]).toEqual([16, 2, 16, false]);
+    expect([rays.at([16, 1]), rays.at([17, 1]), rays.label([32, 1])]).toEqual([{ x: 240, y: 0 }, { x: 0, y: 16 }, '32']);
+    expect([plan(9, 1).rows, plan(9, 1).size]).toEqual([1, 22]);
+  });
+  it('of several rows have the numbers of columns and rows at the edges', () => {
+    const motor = plan(9, 9);
+    expect([motor.numbered, motor.label([9, 4]), motor.height]).toEqual([true, '', 212]);
+    expect(motor.middle([9, 4])).toEqual({ x: 18 + 8.5 * 22, y: 14 + 3.5 * 22 });
+    expect(plan(28, 28).numbered).toBe(false);
   });
 });
 

@@ -8,6 +8,7 @@ const { model } = await import('../../src/stores/model.svelte');
 const { selection } = await import('../../src/stores/selection.svelte');
 const { editing } = await import('../../src/edit/document.svelte');
 const { pageWith, reveal } = await import('../../src/edit/reveal');
+const { portMeanings } = await import('../../src/edit/port_meaning');
 const { formProblem } = await import('../../src/edit/problem_text');
 
 beforeEach(() => {
@@ -39,6 +40,16 @@ describe('the page of an item', () => {
     reveal('z');
     selection.select('a');
     expect(selection.wanted).toBe(null);
+  });
+});
+
+describe('a group', () => {
+  it('means to a module what its port says', () => {
+    model.system!.processes[0]!.module!.inputs.push({ name: '_motor', group: 'a' });
+    editing.types!.modules[0]!.label = 'Bug';
+    editing.types!.modules[0]!.inputs![0]!.doc = 'Rows: speed.';
+    expect(portMeanings('a')).toEqual(['Read by Bug as Motor. Rows: speed.']);
+    expect(portMeanings('b')).toEqual([]);
   });
 });
 
