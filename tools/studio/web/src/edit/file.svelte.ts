@@ -30,6 +30,9 @@ interface FileTask {
 const saved = ({ file }: { file: string }) => actions.notify('info', `Saved as ${baseName(file)}.`);
 const world = () => worldFile.document?.file ?? model.world?.file ?? '';
 
+/** The name of a system that begins empty. */
+const newName = 'New system';
+
 const tasks: Record<FileAction, (process: string) => FileTask> = {
   open: () => ({ title: 'Open a system', verb: 'Open', files: /\.(iqr|xml|world)$/, act: (system) => request('open', { system, world: fileDialog.world.trim() }) }),
   'save as': () => ({
@@ -66,7 +69,7 @@ const tasks: Record<FileAction, (process: string) => FileTask> = {
       },
     };
   },
-  new: () => ({ title: 'New system', verb: 'Create', files: /\.world$/, act: () => request('new', { name: fileDialog.name.trim() || 'New system', world: fileDialog.world.trim(), from: fileDialog.template }) }),
+  new: () => ({ title: 'New system', verb: 'Create', files: /\.world$/, name: newName, act: () => request('new', { name: fileDialog.name.trim(), world: fileDialog.world.trim(), from: fileDialog.template }) }),
   world: () => ({
     title: 'Another world',
     verb: 'Open',
@@ -95,6 +98,8 @@ class FileDialog {
   /** What a new system may begin with, and the one that is chosen; empty for none. */
   templates = $state.raw<ShippedSystem[]>([]);
   template = $state('');
+  /** Whether the world of a new system is a file that is looked for in folders. */
+  looking = $state(false);
   /** Worlds that come with Forage. */
   shipped = $state.raw<string[]>([]);
   listing = $state.raw<FilesResult | null>(null);
@@ -121,6 +126,7 @@ class FileDialog {
     this.error = this.taken = '';
     this.name = task.name ?? '';
     this.template = '';
+    this.looking = action !== 'new';
     void this.list('', task.beside);
   }
   close(): void {
@@ -144,7 +150,7 @@ class FileDialog {
   /** Begins a new system with a template, in its world and with its name. */
   begin(file: string): void {
     const before = this.templates.find((t) => t.file === this.template), next = this.templates.find((t) => t.file === file);
-    if (this.name === '' || this.name === before?.name) this.name = next?.name ?? '';
+    if (this.name === '' || this.name === (before?.name ?? newName)) this.name = next?.name ?? newName;
     if (next?.world) this.world = next.world;
     this.template = file;
   }

@@ -268,7 +268,10 @@ export default async function({ forage, folder, start, open, faults, step }) {
   step('a world that comes with Forage is edited, and saved in the folder of the user, where its models are found');
   await page.keyboard.press('Alt+n');
   await begin.getByLabel('Name').fill('Another');
-  await begin.getByLabel('A world that comes with Forage').selectOption({ label: 'open arena' });
+  await begin.getByLabel('World').selectOption({ label: 'a file…' });
+  await begin.getByRole('list', { name: 'Files' }).waitFor();
+  await begin.getByLabel('World', { exact: true }).selectOption({ label: 'open arena' });
+  await begin.getByRole('list', { name: 'Files' }).waitFor({ state: 'detached' });
   await begin.getByLabel('Name').press('Enter');
   await until(page, 'the new system', () => document.title.includes('Another'));
   await find(page, 'edit the world');
