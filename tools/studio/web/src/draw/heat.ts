@@ -8,8 +8,24 @@ function resize(canvas: HTMLCanvasElement, columns: number, rows: number): Image
   return columns * rows > 0 ? (canvas.getContext('2d')?.createImageData(columns, rows) ?? null) : null;
 }
 
+/** The side in pixels up to which every browser has a canvas. */
+const maxSide = 8192;
+
+/** Values of at most `side` columns and rows: cells that share a pixel are drawn as the largest of them. */
+export function shrunk(values: ArrayLike<number>, columns: number, rows: number, side = maxSide): [ArrayLike<number>, number, number] {
+  if (columns <= side && rows <= side) return [values, columns, rows];
+  const across = Math.ceil(columns / side), down = Math.ceil(rows / side), width = Math.ceil(columns / across), height = Math.ceil(rows / down);
+  const out = new Float32Array(width * height).fill(NaN);
+  for (let i = 0; i < Math.min(values.length, columns * rows); i++) {
+    const to = Math.floor(Math.floor(i / columns) / down) * width + Math.floor((i % columns) / across), v = values[i]!;
+    if (v === v && !(out[to]! >= v)) out[to] = v;
+  }
+  return [out, width, height];
+}
+
 /** Draws values row by row, one pixel per cell. Cells without a value stay transparent. */
-export function drawHeat(canvas: HTMLCanvasElement, values: ArrayLike<number>, columns: number, rows: number, low: number, high: number, map: MapName): void {
+export function drawHeat(canvas: HTMLCanvasElement, all: ArrayLike<number>, allColumns: number, allRows: number, low: number, high: number, map: MapName): void {
+  const [values, columns, rows] = shrunk(all, allColumns, allRows);
   const image = resize(canvas, columns, rows);
   if (!image) return;
   const pixels = new Uint32Array(image.data.buffer);

@@ -1,4 +1,5 @@
 import { describe, expect, it } from 'vitest';
+import { shrunk } from '../../src/draw/heat';
 import { csv, heatsSvg, linesSvg } from '../../src/draw/save';
 import { adapt, axisScale, extent, short } from '../../src/draw/scale';
 import { cyclesPerRow, Trace } from '../../src/panels/trace';
@@ -18,6 +19,15 @@ describe('scales', () => {
     expect(axisScale({ mode: 'manual', low: 0, high: 9 }, -1, 40)).toEqual({ mode: 'manual', low: 0, high: 9 });
   });
   it('writes numbers shortly', () => expect([0, 0.123456, 1e-7, NaN].map(short)).toEqual(['0', '0.1235', '1.0e-7', '–']));
+});
+
+describe('heat maps', () => {
+  it('of more cells than a canvas has pixels draw the largest of those that share one', () => {
+    const values = [1, 2, 3, NaN, 5, 4, NaN, NaN, 0, 7];
+    expect(shrunk(values, 5, 2, 5)).toEqual([values, 5, 2]);
+    const [few, columns, rows] = shrunk(values, 5, 2, 3);
+    expect([columns, rows, ...Array.from(few)]).toEqual([3, 2, 2, 3, 5, 4, 0, 7]);
+  });
 });
 
 describe('Trace', () => {
