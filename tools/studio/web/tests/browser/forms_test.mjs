@@ -100,6 +100,13 @@ export default async function({ folder, context, start, open, faults, step }) {
   await persistence.press('Enter');
   await alert('7 is not taken: 0 to 1.');
   assert.equal(await persistence.inputValue(), '0');
+  await persistence.fill('a');
+  await persistence.press('Enter');
+  await alert("'a' is not a number.");
+  assert.equal(await inspector.getByRole('button', { name: 'Use 7 all the same' }).count(), 0, 'one reason at a time');
+  await persistence.fill('7');
+  await persistence.press('Enter');
+  await alert('7 is not taken: 0 to 1.');
   await page.getByRole('button', { name: /problem/ }).waitFor({ state: 'detached' });
   await inspector.getByRole('button', { name: 'Use 7 all the same' }).click();
   await until(page, 'the unusual value', () => document.getElementById('Bug/Motor.vmPrs')?.value === '7');
