@@ -23,7 +23,8 @@ export function shortened(name: string, width: number, maxLines: number, measure
     else lines.push(word);
   }
   const most = Math.max(1, maxLines);
-  return [...lines.slice(0, most - 1), lines.slice(most - 1).join(' ')].map((l) => cut(l, width, measure)).filter(Boolean);
+  const shown = [...lines.slice(0, most - 1), lines.slice(most - 1).join(' ')].map((l) => cut(l, width, measure)).filter(Boolean);
+  return shown.length ? shown : [`${name.slice(0, 2)}…`]; // a box is never without a name
 }
 
 /** How the page writes texts of a weight. */
@@ -40,6 +41,6 @@ function measured(weight: number): Measure {
   };
 }
 /** As the page writes names. */
-export const measure = measured(600);
+export const measure = measured(500);
 /** As it writes other texts. */
 export const measurePlain = measured(400);
