@@ -20,6 +20,7 @@ export function panelMenu(p: IDockviewPanel): Entries {
   const panel = p.params as PanelState;
   const joins: Entry[] = stacks.map(({ group, name }) => ({ label: name, act: () => join(p, group) }));
   return [
+    ...(figureDialog.of(panel) ? [{ label: 'Export figure…', act: () => figureDialog.open(panel) }, null] : []),
     ...ways.map(([side, arrow]) => ({ label: `Move ${side}`, keys: `Ctrl Shift ${arrow}`, disabled: !canMove(p, side), act: () => move(p, side) })),
     // Move is for the whole window there.
     ...(floats(p) && shares(p) ? [null, ...ways.map(([side]) => ({ label: `Split ${side}`, act: () => split(p, side) }))] : []),
@@ -33,7 +34,6 @@ export function panelMenu(p: IDockviewPanel): Entries {
     { label: 'Narrower', keys: 'Alt Shift ←', act: () => resize(p, -1, 0) },
     { label: 'Taller', keys: 'Alt Shift ↓', act: () => resize(p, 0, 1) },
     { label: 'Shorter', keys: 'Alt Shift ↑', act: () => resize(p, 0, -1) },
-    ...(figureDialog.of(panel) ? [null, { label: 'Export figure…', act: () => figureDialog.open(panel) }] : []),
     null,
     { label: 'Close', keys: 'Del', act: () => close(p) },
     ...(shares(p) ? [{ label: 'Close the other tabs', act: () => closeOthers(p) }] : []),
