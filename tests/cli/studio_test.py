@@ -220,6 +220,17 @@ class Refusals(unittest.TestCase):
         page.close()
 
 
+class Start(unittest.TestCase):
+    def test_without_a_system_it_opens_the_robot_of_the_tutorial(self):
+        with Studio(forage) as studio:
+            page = Page(studio)
+            page.do('pause')
+            self.assertEqual(page.last('system')['name'], 'DAC foraging')
+            self.assertTrue(page.last('world')['file'].endswith('basic_arena.world'))
+            self.assertTrue(page.last('document')['shipped'])
+            page.close()
+
+
 class Browser(unittest.TestCase):
     """`--open` shows the page without an argument that others could use."""
 

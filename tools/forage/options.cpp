@@ -373,9 +373,10 @@ void add_studio(CLI::App& app, StudioCommand& o) {
     auto& command = *app.add_subcommand(
         "studio", "Watch and touch a system while it runs, in the browser of this machine");
     command.footer(
-        "Example:\n  forage studio systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world "
-        "--open");
+        "Without SYSTEM, it opens the robot of the tutorial.\nExample:\n  forage studio "
+        "systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --open");
     add_input(command, o.input);
+    command.get_option("SYSTEM")->required(false);
     command.add_option("--seed", o.input.seed, "Decides everything random [1]")
         ->transform(seed())
         ->option_text("N");

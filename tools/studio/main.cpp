@@ -66,6 +66,10 @@ int serve(const StudioCommand& command) {
     options.ticket = command.open;
     options.port = static_cast<std::uint16_t>(command.port);
     options.shipped = installation() / "share/forage/systems";
+    if (options.input.system.empty()) {
+        options.input.system = options.shipped + "/dac_foraging.iqr";
+        if (options.input.world.empty()) options.input.world = options.shipped + "/worlds/basic_arena.world";
+    }
     ask_for_trust(options.input);
     note_signals("the studio");
     std::string redirect;
