@@ -27,6 +27,8 @@ export function applyPreset(preset: Preset): void {
   if (spaces.length === 0) spaces.push(...model.groups.slice(0, 2));
   const times = preset.times.map(find).filter((g) => g !== undefined);
   arrange([...spaces.map((g) => ({ kind: 'space', item: g.path })), ...times.map((g) => ({ kind: 'time', sources: [`mean(${g.path})`] }))]);
+  // Of the tabs below the arena, the first one that a newcomer sees says how the robot is wired.
+  if (preset === presets[0] && frame.room === 'narrow') dock.open({ kind: 'diagram' });
 }
 
 // The tutorial as its button closed it: it opens again at the part that was read.

@@ -60,7 +60,7 @@ export default async function({ context, start, open, faults, step }) {
   await arena.getByRole('button', { name: '3-D' }).click();
   await arena.getByRole('application', { name: /in space/ }).waitFor();
   const png = async () => {
-    const [file] = await Promise.all([page.waitForEvent('download'), arena.getByRole('button', { name: 'Save as PNG' }).click()]);
+    const [file] = await Promise.all([page.waitForEvent('download'), arena.getByLabel('Save').selectOption('png')]);
     return readFileSync(await file.path());
   };
   const drawn = async (what, key, differs) => {
