@@ -181,9 +181,10 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
               })
         .tolerate([](PortSizes&, const GroupShape& given) { return is_square(given) && given.width > 1; })
         .doc(
-            "The most active cell is the velocity, whatever its activity. Rows: top transSpeed, middle 0, "
-            "bottom -transSpeed. Columns: left rotSpeed (a left turn), middle 0, right -rotSpeed. No active "
-            "cell, or all cells equal: the robot stops.")
+            "The most active cell is the velocity, whatever its activity. The top row drives forwards at "
+            "transSpeed, the bottom row backwards, the middle row not at all. The left column turns left at "
+            "rotSpeed, the right column right, the middle column drives straight on. No active cell, or all "
+            "cells equal: the robot stops.")
         .names([](const auto&, const ModulePorts&, const GroupShape& shape) { return motor_names(shape); });
     s.input("_gripper", "Gripper")
         .optional()
