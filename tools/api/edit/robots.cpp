@@ -81,7 +81,10 @@ std::string add_robot(System& system, const Registry& registry, const std::strin
     set_type(system, registry, made, Part::module, "moduleGazeboBug");
     set_parameter(system, made, "device_name", robot);
     set_parameter(system, made, "gripper", "false");
-    add_port_groups(system, registry, made, {"_motor", "_proximity", "_target"});
+    const auto groups = add_port_groups(system, registry, made, {"_proximity", "_target", "_motor"});
+    // Sensors at the left, the motor at the right: connections lead from left to right.
+    model::place(system, groups[1], 20, 90);
+    model::place(system, groups[2], 160, 55);
     return made;
 }
 

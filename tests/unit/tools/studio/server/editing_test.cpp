@@ -681,9 +681,10 @@ TEST_CASE("a robot is one step, and a port gets a group of the size that it need
     CHECK(e.last["document"]["problems"] == json::array());
     const auto groups = e.last["system"]["processes"][0]["groups"];
     REQUIRE(groups.size() == 3);
-    CHECK(groups[0]["width"] == 9);
-    CHECK(groups[1]["width"] == 32);
-    e.edit({{{"do", "remove"}, {"ids", {groups[0]["id"]}}}});
+    CHECK(groups[0]["width"] == 32);
+    CHECK(groups[2]["width"] == 9);
+    CHECK(groups[0]["icon"]["x"] < groups[2]["icon"]["x"]);
+    e.edit({{{"do", "remove"}, {"ids", {groups[2]["id"]}}}});
     CHECK(e.last["document"]["problems"][0]["size"] == json({9, 9}));
     e.edit({{{"do", "port_groups"}, {"id", robot}, {"ports", {"_motor"}}}});
     CHECK(e.last["document"]["problems"] == json::array());
