@@ -133,9 +133,13 @@ export default async function({ start, open, faults, step }) {
   await page.getByRole('group', { name: 'Run' }).getByRole('button', { name: 'Run', exact: true }).waitFor(); // it is paused
   assert.equal(await trials.locator('dd i').count(), 3);
   await picture(page, 'trials');
+  await trials.getByRole('button', { name: 'Figure…' }).click();
+  const figure = page.getByRole('dialog', { name: 'Export figure' });
+  await figure.getByRole('img', { name: 'The figure learning' }).waitFor();
+  await figure.getByRole('button', { name: 'Cancel' }).click();
 
   step('it runs until a condition, and pauses; a mistake in it is said, and a world without trials takes it, too');
-  const condition = trials.getByLabel('or when');
+  const condition = trials.getByLabel('or until');
   await trials.getByLabel('Number of trials').fill('1000');
   await condition.fill('trail 5');
   await trials.getByRole('button', { name: 'Run', exact: true }).click();
@@ -157,6 +161,10 @@ export default async function({ start, open, faults, step }) {
   await examples.getByRole('button', { name: /^Reactive foraging/ }).click();
   await page.getByRole('dialog', { name: 'Changes' }).getByRole('button', { name: 'Discard them' }).click();
   await until(page, 'the example', () => document.title.includes('Reactive foraging') && document.title.includes('basic_arena'));
+  await find(page, 'Show the arena');
+  for (const name of ['Open the tutorial', 'New…', 'Open an example…']) await page.getByRole('group', { name: 'Arena' }).getByRole('button', { name }).waitFor();
+  await page.getByRole('group', { name: 'Arena' }).getByRole('button', { name: 'Open an example…' }).click();
+  await examples.getByRole('button', { name: 'Close' }).click();
 
   step('the server ends: the page says so; faults in between: none');
   assert.deepEqual(faults, []);
