@@ -1,7 +1,7 @@
 /** Why a field does not take a number; empty when it does. */
 export function refusal(value: number, low: number | null, high: number | null): string {
   if ((low === null || value >= low) && (high === null || value <= high)) return '';
-  return `${value} is not taken: ${high === null ? `at least ${low}` : low === null ? `at most ${high}` : `${low} to ${high}`}.`;
+  return `${value} is too ${low !== null && value < low ? 'small' : 'large'}: ${high === null ? `at least ${low}` : low === null ? `at most ${high}` : `${low} to ${high}`}.`;
 }
 
 interface Limits {

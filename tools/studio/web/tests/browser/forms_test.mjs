@@ -73,7 +73,7 @@ export default async function({ folder, context, start, open, faults, step }) {
   const columns = inspector.getByLabel('Columns');
   await columns.fill('0');
   await columns.press('Enter');
-  await alert('0 is not taken: 1 to');
+  await alert('0 is too small: 1 to');
   assert.equal(await columns.inputValue(), '0', 'what is refused can be mended');
   await columns.fill('3.7');
   await columns.press('Enter');
@@ -98,7 +98,7 @@ export default async function({ folder, context, start, open, faults, step }) {
   await until(page, 'the former value', () => document.getElementById('Bug/Motor.vmPrs')?.value === '0');
   await persistence.fill('7');
   await persistence.press('Enter');
-  await alert('7 is not taken: 0 to 1.');
+  await alert('7 is too large: 0 to 1.');
   assert.equal(await persistence.inputValue(), '0');
   await persistence.fill('a');
   await persistence.press('Enter');
@@ -106,7 +106,7 @@ export default async function({ folder, context, start, open, faults, step }) {
   assert.equal(await inspector.getByRole('button', { name: 'Use 7 all the same' }).count(), 0, 'one reason at a time');
   await persistence.fill('7');
   await persistence.press('Enter');
-  await alert('7 is not taken: 0 to 1.');
+  await alert('7 is too large: 0 to 1.');
   await page.getByRole('button', { name: /problem/ }).waitFor({ state: 'detached' });
   await inspector.getByRole('button', { name: 'Use 7 all the same' }).click();
   await until(page, 'the unusual value', () => document.getElementById('Bug/Motor.vmPrs')?.value === '7');
@@ -209,8 +209,11 @@ export default async function({ folder, context, start, open, faults, step }) {
   await heading('Bug');
   const port = inspector.locator('[data-port="_motor"] select');
   const label = (await inspector.locator('[data-port="_motor"] label').innerText()).replace(/\s*\*\s*$/, '').trim();
+  const left = () => page.evaluate(() => document.querySelector('button.run').getBoundingClientRect().left);
+  const runAt = await left();
   await port.selectOption('');
   await page.getByRole('button', { name: 'running the last valid version' }).click();
+  assert.equal(await left(), runAt, 'Run stays where it is');
   await find(page, 'Adaptive/UR');
   await page.getByRole('group', { name: 'Problems' }).getByRole('button', { name: `${label} of the module of Bug has no group` }).click();
   await until(page, 'the field of the port', () => document.activeElement?.closest('[data-port="_motor"]') != null);

@@ -130,12 +130,12 @@ describe('the selection', () => {
 
 describe('the fields of a form', () => {
   it('refuse numbers outside of their range, and say the range', () => {
-    expect(refusal(7, 0, 1)).toBe('7 is not taken: 0 to 1.');
-    expect(refusal(0, 1, null)).toBe('0 is not taken: at least 1.');
-    expect(refusal(3, null, 2)).toBe('3 is not taken: at most 2.');
+    expect(refusal(7, 0, 1)).toBe('7 is too large: 0 to 1.');
+    expect(refusal(0, 1, null)).toBe('0 is too small: at least 1.');
+    expect(refusal(3, null, 2)).toBe('3 is too large: at most 2.');
     expect(refusal(1, 0, 1)).toBe('');
     expect(refusal(-5, null, null)).toBe('');
-    expect(readNumber('7', { low: 0, high: 1 })).toBe('7 is not taken: 0 to 1.');
+    expect(readNumber('7', { low: 0, high: 1 })).toBe('7 is too large: 0 to 1.');
   });
   it('reads all of a number, or says why not', () => {
     for (const [text, value] of [['0.5', 0.5], ['0,5', 0.5], [' 12 ', 12], ['−3', -3], ['1e-3', 0.001], ['.5', 0.5], ['0,500', 0.5]] as const) expect(readNumber(text)).toBe(value);
