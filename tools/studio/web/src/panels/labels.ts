@@ -6,12 +6,12 @@ type Measure = (text: string) => number;
 /** The size of texts on a page, for so many pixels of the screen. It grows in steps, as each one redraws all boxes. */
 export const labelSize = (zoom: number): number => Math.ceil(Math.max(12, 11 / zoom));
 
-/** The start of a text that fits, with dots when it is not the whole; nothing instead of one or two letters. */
-function cut(text: string, width: number, measure: Measure): string {
+/** The start of a text that fits, with dots when it is not the whole; nothing instead of fewer letters than `least`. */
+function cut(text: string, width: number, measure: Measure, least: number): string {
   if (measure(text) <= width) return text;
   let end = text.length - 1;
-  while (end > 1 && measure(`${text.slice(0, end)}…`) > width) end--;
-  return end < 3 ? '' : `${text.slice(0, end).trimEnd()}…`;
+  while (end > 0 && measure(`${text.slice(0, end)}…`) > width) end--;
+  return end < least ? '' : `${text.slice(0, end).trimEnd()}…`;
 }
 
 /** A name in at most `maxLines` lines; what does not fit ends in dots, and no word is broken over two lines. */
@@ -23,8 +23,8 @@ export function shortened(name: string, width: number, maxLines: number, measure
     else lines.push(word);
   }
   const most = Math.max(1, maxLines);
-  const shown = [...lines.slice(0, most - 1), lines.slice(most - 1).join(' ')].map((l) => cut(l, width, measure)).filter(Boolean);
-  return shown.length ? shown : [`${name.slice(0, 2)}…`]; // a box is never without a name
+  const shown = [...lines.slice(0, most - 1), lines.slice(most - 1).join(' ')].map((l) => cut(l, width, measure, 3)).filter(Boolean);
+  return shown.length ? shown : [cut(name, width, measure, 1)].filter(Boolean); // one letter rather than none
 }
 
 /** How the page writes texts of a weight. */

@@ -69,6 +69,7 @@ describe('a name', () => {
     expect(shortened('Pre Thresh Approach', 12, 1, letters)).toEqual(['Pre Thresh…']);
     expect(shortened('Contextual Inhibition', 12, 2, letters)).toEqual(['Contextual', 'Inhibition']);
   });
+  it('has one letter rather than none, if there is room for one', () => expect([2, 1].map((width) => shortened('discrepancy', width, 3, letters))).toEqual([['d…'], []]));
   it('has at least 11 pixels of the screen', () => {
     for (const zoom of [0.4, 0.57, 0.8, 1, 1.2]) expect(labelSize(zoom) * zoom).toBeGreaterThanOrEqual(11);
   });
