@@ -67,14 +67,15 @@ class Dock {
     return this.open(panel, { beside: this.api?.panels.find((p) => (p.params as PanelState).kind === kind)?.id });
   }
 
-  /** Arranges all panels for a window without room for columns: the arena above the tabs of all others, or tabs of one stack. The tutorial stays beside them, or below. */
+  /** Arranges all panels for a window without room for columns: the arena, where it is seen, above the tabs of all others; or tabs of one stack. The tutorial stays beside them, or below. */
   gather(room: Exclude<Room, 'wide'>): void {
     const api = this.api;
     if (!api || api.totalPanels === 0) return;
     const active = api.activePanel, panels = [...api.panels];
     const kindOf = (p: (typeof panels)[number]) => (p.params as PanelState).kind;
     const text = panels.filter((p) => kindOf(p) === 'tutorial'), others = panels.filter((p) => !text.includes(p));
-    const above = room === 'small' ? others : others.filter((p) => kindOf(p) === 'arena');
+    const arena = others.filter((p) => kindOf(p) === 'arena' && p.api.isVisible); // not one behind the diagram
+    const above = room === 'small' || arena.length === 0 ? others : arena;
     const put = (some: typeof panels, direction?: 'below' | 'left') => {
       if (some.length === 0) return null;
       const group = api.addGroup(direction && { direction }) as DockviewGroupPanel;

@@ -49,7 +49,10 @@ export default async function({ folder, start, open, faults: thrown, step }) {
     const tabs = page.getByRole('group', { name: 'Processes' }).getByRole('button');
     for (const [width, height] of [[1400, 900], [1024, 700]]) {
       await page.setViewportSize({ width, height });
-      if (width === 1024) await page.getByRole('tab', { name: 'Diagram' }).click();
+      if (width === 1024) {
+        await page.getByRole('tab', { name: 'Diagram' }).click();
+        await until(page, 'the whole height for the diagram, as the arena was behind it', () => document.querySelector('[aria-label="Canvas"]').offsetHeight > 450);
+      }
       for (let i = 0; i < (await tabs.count()); i++) {
         await tabs.nth(i).click();
         await until(page, 'this page', (n) => document.querySelectorAll('[aria-label="Processes"] button')[n].matches('.on'), i);
