@@ -207,7 +207,9 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
     s.output("_target", "Target sensor")
         .optional()
         .size(32, 1)
-        .doc("The same for the sensor 'laser_target', which sees the light.")
+        .doc(
+            "One cell per ray of the sensor 'laser_target', which sees the light, from left to right: 1 - "
+            "distance / range, or 0 if no light is in range.")
         .names(rays_of("laser_target"));
     s.output("_proximityGripper", "Gripper proximity sensor")
         .optional()
@@ -215,7 +217,9 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
               [](const GazeboBug& module, PortSizes&, const GroupShape& given) {
                   return module.gripper ? rectangle(16, 1) : given;
               })
-        .doc("The same for the sensor 'laser_gripper' between the fingers; the outer cells see the palm.")
+        .doc(
+            "One cell per ray of the sensor 'laser_gripper' between the fingers, from left to right: 1 - "
+            "distance / range. The outer cells see the palm.")
         .names(rays_of("laser_gripper"));
     s.output("_gps", "GPS")
         .optional()
