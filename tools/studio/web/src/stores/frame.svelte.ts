@@ -37,7 +37,11 @@ class Frame {
     this.tree = this.inspector = false;
   }
   /** The drawers that were open before the tutorial took their place; null while it is closed. */
-  private lent: { tree: boolean; inspector: boolean } | null = null;
+  private lent = $state.raw<{ tree: boolean; inspector: boolean } | null>(null);
+  /** Whether the tutorial is open. */
+  get reading(): boolean {
+    return this.lent !== null;
+  }
   /** Closes the tree, and on a middling window the inspector, for the tutorial. */
   lend(): void {
     const drawers = narrow.matches ? this.wide : this;
