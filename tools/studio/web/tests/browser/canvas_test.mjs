@@ -351,7 +351,7 @@ export default async function({ folder, context, start, open, faults, step }) {
   assert.ok(wheeled > 1.05 * whole, `${whole} becomes ${wheeled}`);
   assert.equal(await page.evaluate(() => window.visualViewport.scale), 1, 'the page of the browser stays');
 
-  step('axe finds no serious fault of accessibility');
+  step('axe finds no fault of accessibility');
   await tab('System');
   await comments.first().click();
   await inspector.getByLabel('Text', { exact: true }).waitFor();

@@ -208,7 +208,7 @@ export default async function({ folder, context, start, open, faults, step }) {
   await page.getByRole('navigation').getByText('Drive', { exact: true }).waitFor();
   await page.getByRole('group', { name: 'Changes since the last save' }).getByText(/1\.25/).first().waitFor();
 
-  step('axe finds no serious fault of accessibility');
+  step('axe finds no fault of accessibility');
   await find(page, 'US to Approach');
   await inspector.getByLabel('Cells', { exact: true }).waitFor();
   await accessible(page);

@@ -119,7 +119,7 @@ export default async function({ start, open, faults, step }) {
   await page.getByRole('button', { name: 'Stop', exact: true }).click();
   await until(page, 'cycle 0', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '0');
 
-  step('axe finds no serious fault of accessibility');
+  step('axe finds no fault of accessibility');
   await accessible(page);
 
   step('a number of trials runs, and then it pauses; hits and misses stand by their starts');
@@ -139,7 +139,7 @@ export default async function({ start, open, faults, step }) {
   await figure.getByRole('button', { name: 'Cancel' }).click();
 
   step('it runs until a condition, and pauses; a mistake in it is said, and a world without trials takes it, too');
-  const condition = trials.getByLabel('or until');
+  const condition = trials.getByLabel('or when');
   await trials.getByLabel('Number of trials').fill('1000');
   await condition.fill('trail 5');
   await trials.getByRole('button', { name: 'Run', exact: true }).click();

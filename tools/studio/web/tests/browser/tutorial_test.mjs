@@ -198,7 +198,7 @@ export default async function({ site, folder, start, open, faults, step }) {
   await page.reload();
   await tutorial.getByRole('heading', { name: 'Tutorial 3: the adaptive layer' }).waitFor();
 
-  step('axe finds no serious fault of accessibility, light and dark');
+  step('axe finds no fault of accessibility, light and dark');
   for (const scheme of ['light', 'dark']) {
     await page.emulateMedia({ colorScheme: scheme });
     await until(page, scheme, (s) => document.documentElement.classList.contains('dark') === (s === 'dark'), scheme);

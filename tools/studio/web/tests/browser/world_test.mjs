@@ -205,7 +205,7 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await undo();
   await until(page, 'the robot is back', () => [...document.querySelectorAll('[aria-label="Item"] option')].some((o) => o.value === 'Bug'));
 
-  step('axe finds no serious fault of accessibility');
+  step('axe finds no fault of accessibility');
   await accessible(page);
 
   step('a world that is not saved is marked, also in a page that was reloaded, and is not left without a question');
