@@ -16,6 +16,7 @@ export default async function({ start, open, faults, step }) {
   step('all buttons of the diagram have room; that there is nothing to undo is reported, and is no error');
   const cut = await page.getByRole('toolbar', { name: 'Editing' }).evaluate((bar) => [...bar.querySelectorAll('button')].filter((b) => b.getBoundingClientRect().right > bar.getBoundingClientRect().right).map((b) => b.textContent));
   assert.deepEqual(cut, []);
+  for (const kind of ['excitatory', 'inhibitory', 'modulatory']) await page.getByRole('button', { name: `Connect ${kind}` }).getByText(kind, { exact: true }).waitFor(); // in words
   await page.keyboard.press('Control+z');
   await page.locator('.notice.info').filter({ hasText: 'there is nothing to undo' }).waitFor();
   assert.equal(await page.locator('.notice.error').count(), 0);
