@@ -86,6 +86,7 @@ class Dock {
     put(others.filter((p) => !above.includes(p)), 'below');
     const beside = put(text, room === 'small' ? 'below' : 'left');
     if (room === 'narrow') beside?.api.setSize({ width: tutorialWidth(api.width) });
+    if (!beside && above === arena) others.find((p) => kindOf(p) === 'diagram')?.api.setActive(); // of the tabs below, as in a new layout
     active?.api.setActive();
   }
 

@@ -29,6 +29,11 @@ export default async function({ site, start, open, faults, step }) {
   await tree(page).waitFor();
   await count(page, 4);
   const before = await stacks(page);
+  await page.setViewportSize({ width: 1024, height: 700 });
+  await count(page, 2);
+  await until(page, 'the diagram below the arena', () => ['Arena', 'Diagram'].every((title) => [...document.querySelectorAll('.dv-active-tab')].some((t) => t.textContent.includes(title))));
+  await page.setViewportSize({ width: 1400, height: 900 });
+  await count(page, 4);
   await page.getByRole('group', { name: 'Arena' }).evaluate((e) => (e.dataset.same = 'yes'));
   await page.setViewportSize(small);
   await count(page, 1);
