@@ -270,11 +270,22 @@ export default async function({ forage, folder, start, open, faults, step }) {
   for (const name of ['Motor', 'Proximity sensor', 'Target sensor']) await diagram.locator(`.svelte-flow__node[aria-label="${name}"]`).waitFor(); // its text may be shorter
   assert.equal(await problems.count(), 0);
   await page.getByRole('button', { name: 'Close the inspector' }).click();
-  await page.getByRole('button', { name: 'Connect excitatory' }).first().click();
-  for (const end of ['Proximity sensor', 'Motor']) await diagram.locator(`.svelte-flow__node[aria-label="${end}"]`).first().click();
+  const connect = async () => {
+    await page.getByRole('button', { name: 'Connect excitatory' }).first().click();
+    for (const end of ['Proximity sensor', 'Motor']) await diagram.locator(`.svelte-flow__node[aria-label="${end}"]`).first().click();
+  };
+  await connect();
   await field('Cells').waitFor(); // its form is opened again, as cells are to be chosen
   await inspector.getByText(/^Read by Gazebo Bug as Motor\. The most active cell/).waitFor();
   await page.keyboard.press('Control+z');
+  await page.setViewportSize({ width: 1024, height: 700 });
+  await page.getByRole('tab', { name: 'Diagram' }).click();
+  await connect();
+  await page.getByRole('button', { name: 'Choose cells' }).click();
+  await field('Cells').waitFor();
+  await page.getByRole('button', { name: 'Close the inspector' }).click();
+  await page.getByRole('button', { name: 'Undo', exact: true }).click();
+  await page.setViewportSize({ width: 1400, height: 900 });
   await box(exact('Motor')).press('Delete');
   await page.getByRole('button', { name: '1 problem' }).click();
   await page.getByRole('group', { name: 'Problems' }).getByRole('button', { name: 'Create group 9 × 9' }).click();
