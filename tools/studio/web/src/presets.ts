@@ -68,7 +68,7 @@ function build(beside: boolean): void {
   const kept = clear();
   const diagram = dock.open({ kind: 'diagram' }, kept ? { beside: kept.id, direction: frame.small ? 'above' : 'right' } : {})!;
   if (!model.world) return;
-  dock.open({ kind: 'arena' }, { beside: diagram, inactive: true, ...(beside ? { direction: 'right', width: Math.round(0.42 * dock.api.width) } : {}) });
+  dock.open({ kind: 'arena' }, { beside: diagram, inactive: true, ...(beside ? { direction: 'right', width: Math.round(0.4 * dock.api.width) } : {}) });
 }
 
 /** The panel in question in the largest place, plots at its right, and the arena below it or below them, with the diagram behind it. */
