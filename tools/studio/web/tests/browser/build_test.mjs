@@ -50,7 +50,10 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await page.getByRole('dialog', { name: 'New system' }).getByLabel('Name').fill('Mine');
   await page.keyboard.press('Enter');
   await page.getByText('The system is empty').waitFor();
-  await page.getByRole('group', { name: 'Arena' }).waitFor(); // beside the diagram, which then takes its place
+  await page.getByRole('group', { name: 'Arena' }).waitFor(); // beside the diagram
+  await page.getByRole('button', { name: 'Arrange, view, save' }).click(); // one menu, as there is less room
+  await page.getByRole('menuitem', { name: 'Lay out the page' }).waitFor();
+  await page.keyboard.press('Escape');
   await find(page, 'layout: build');
 
   step('three processes, placed by the mouse');
