@@ -78,7 +78,9 @@ function around(large: PanelState, others: PanelState[]): void {
   const views: PanelState[] = ([{ kind: 'arena' }, { kind: 'diagram' }] as PanelState[]).filter((p) => p.kind !== large.kind && (p.kind !== 'arena' || model.world));
   if (frame.room !== 'wide') {
     let stack = frame.small ? main : null;
-    for (const p of [...views.slice(0, 1), ...others, ...views.slice(1)]) stack = dock.open(p, stack ? { beside: stack, inactive: true } : { beside: main, direction: 'below', height: Math.round(api.height * 0.43) });
+    // The names in a diagram need room.
+    const height = Math.round(api.height * (large.kind === 'diagram' ? 0.35 : 0.43));
+    for (const p of [...views.slice(0, 1), ...others, ...views.slice(1)]) stack = dock.open(p, stack ? { beside: stack, inactive: true } : { beside: main, direction: 'below', height });
     api.getPanel(main)?.api.setActive();
     if (!frame.small) kept?.api.setSize({ width: tutorialWidth(api.width) });
     return;

@@ -1,7 +1,7 @@
 // The kinds of panels. A new kind is one component and one line here; components are loaded when they are first shown.
 import type { Component } from 'svelte';
 import { model } from '../stores/model.svelte';
-import { sourceTitle } from './source_titles';
+import { plotTitle } from './source_titles';
 
 /** What a layout file keeps of a panel. */
 export interface PanelState {
@@ -35,7 +35,7 @@ export const kinds: Record<string, PanelKind> = {
   arena: { title: () => 'Arena', load: () => import('./Arena.svelte') },
   diagram: { title: () => 'Diagram', load: () => import('./Diagram.svelte') },
   space: { title: (p) => group(p), load: () => import('./Space.svelte') },
-  time: { title: (p) => (p.sources?.length === 1 ? `${sourceTitle(p.sources[0]!)} over time` : 'Over time'), load: () => import('./Time.svelte') },
+  time: { title: (p) => (plotTitle(p.sources ?? []) ? `${plotTitle(p.sources!)} over time` : 'Over time'), load: () => import('./Time.svelte') },
   raster: { title: (p) => `${group(p)} raster`, load: () => import('./Raster.svelte') },
   weights: { title: (p) => `${connection(p)} weights`, load: () => import('./Weights.svelte') },
   wiring: { title: (p) => `${connection(p)} wiring`, load: () => import('./Wiring.svelte') },

@@ -31,8 +31,9 @@ export function sourceTitles(sources: string[]): string[] {
   return titles.map((title, i) => (titles.filter((t) => t === title).length > 1 && all[i]!.place ? `${title} ${all[i]!.place}` : title));
 }
 
-/** The title of a single source, with its group. */
-export function sourceTitle(source: string): string {
-  const { group, name } = named(source);
-  return group && group !== name ? `${group}: ${name}` : name;
+/** The title of a plot of these sources: that of a single one, with its group, or the group of all. Empty for others. */
+export function plotTitle(sources: string[]): string {
+  const all = sources.map(named), { group = '', name = '' } = all[0] ?? {};
+  if (all.length === 1) return group && group !== name ? `${group}: ${name}` : name;
+  return all.every((n) => n.group === group) ? group : '';
 }

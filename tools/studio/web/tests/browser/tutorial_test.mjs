@@ -45,11 +45,11 @@ export default async function({ site, folder, start, open, faults, step }) {
   /** The panels in question: those that the exercise asks about. */
   const asked = {
     1: ['Arena', 'Diagram', 'Bug/Red - Hue', 'Bug/Light'],
-    2: ['Diagram', 'Selection/Motor In', 'Diagram', 'Arena', 'Over time'],
+    2: ['Diagram', 'Selection/Motor In', 'Diagram', 'Arena', 'GPS over time'],
     3: ['Trials', 'Adaptive/Weights Display', 'Adaptive/Weights Display', 'discrepancy over time', 'Adaptive/prototype', 'Adaptive/Weights Display', 'Trials', 'Trials'],
     4: ['Contextual/Empty', 'Contextual/Empty', 'Contextual/Selected', 'Contextual/Selected', 'Contextual/Empty', 'Contextual/Empty', 'Contextual/Selected', 'Contextual/Empty', 'Contextual/Selected'],
     5: ['Trials', 'Trials', 'Trials', 'Trials'],
-    6: ['Over time', 'Over time', 'Over time', 'Needs: security over time', 'Over time'],
+    6: ['Balance over time', 'Needs over time', 'Needs over time', 'Needs: security over time', 'Needs over time'],
   };
   /** The titles of the panels that have the largest place, but for the tutorial. */
   const largest = () =>
@@ -74,6 +74,11 @@ export default async function({ site, folder, start, open, faults, step }) {
       });
       assert.deepEqual(await largest(), [asked[part][i]], `${part}, set-up ${i + 1}: the largest panel`);
       await picture(page, `${part}-${i + 1}`);
+      const checked = tutorial.locator(`[data-setup="${i}"]`);
+      if (await checked.locator('[data-check]').count()) {
+        await checked.locator('[data-check]').click();
+        await checked.getByRole('listitem').first().waitFor();
+      }
       await page.locator('.dv-tab', { hasText: 'Diagram' }).click();
       const shown = page.getByRole('group', { name: 'Diagram' }).getByRole('group', { name: 'Processes' }).locator('button.on');
       assert.equal(await shown.textContent(), processes[i], `${part}, set-up ${i + 1}: the diagram`);
@@ -92,19 +97,19 @@ export default async function({ site, folder, start, open, faults, step }) {
 
   step('an exercise says in words whether what was seen is right, when it is asked');
   await tutorial.getByRole('button', { name: '2', exact: true }).click();
-  const checked = tutorial.locator('[data-setup="1"]');
-  assert.ok(await checked.getByRole('button', { name: 'Check what I have seen' }).isDisabled());
-  await checked.getByRole('button', { name: 'Set it up' }).click();
-  await checked.and(tutorial.locator('.active')).waitFor();
-  assert.equal(await checked.getByRole('listitem').count(), 0);
-  await checked.getByRole('button', { name: 'Check what I have seen' }).click();
-  await checked.getByText('0 of 30 trials have finished. Run the others, then check again.').waitFor();
+  const reflex = tutorial.locator('[data-setup="1"]');
+  assert.ok(await reflex.getByRole('button', { name: 'Check what I have seen' }).isDisabled());
+  await reflex.getByRole('button', { name: 'Set it up' }).click();
+  await reflex.and(tutorial.locator('.active')).waitFor();
+  assert.equal(await reflex.getByRole('listitem').count(), 0);
+  await reflex.getByRole('button', { name: 'Check what I have seen' }).click();
+  await reflex.getByText('0 of 30 trials have finished. Run the others, then check again.').waitFor();
   await page.getByRole('button', { name: 'Max', exact: true }).click();
   await page.getByRole('group', { name: 'Trials' }).getByRole('button', { name: 'Run', exact: true }).click();
   await page.getByText('14 of 30 reached the target').waitFor();
   await page.getByRole('button', { name: 'Run', exact: true }).first().waitFor();
-  await checked.getByRole('button', { name: 'Check what I have seen' }).click();
-  await checked.getByText('You have seen 16 misses in 30 trials (53 %): right, the text expects 30 % to 80 %.').waitFor();
+  await reflex.getByRole('button', { name: 'Check what I have seen' }).click();
+  await reflex.getByText('You have seen 16 misses in 30 trials (53 %): right, the text expects 30 % to 80 %.').waitFor();
   await picture(page, 'tutorial-checked');
 
   step('in narrow windows all that it names is seen: the trials, and plots that can be read');

@@ -6,7 +6,7 @@ import type { Group, SystemMessage } from '../../src/protocol/messages';
 
 vi.stubGlobal('matchMedia', () => ({ matches: false }));
 const { model } = await import('../../src/stores/model.svelte');
-const { sourceTitle, sourceTitles } = await import('../../src/panels/source_titles');
+const { plotTitle, sourceTitles } = await import('../../src/panels/source_titles');
 
 const needs = { columns: ['temperature', 'hydration'], rows: [], column: '', row: '' };
 const memory = { columns: [], rows: [], column: 'segment', row: 'sequence' };
@@ -39,7 +39,8 @@ describe('titles of traces', () => {
   it('are what the cells stand for', () => expect(sourceTitles(['P/Needs(1,1)', 'P/Needs:act(2,1)'])).toEqual(['temperature', 'hydration']));
   it('have the group where there are several', () => expect(sourceTitles(['P/Needs(1,1)', 'P/Errors(1,1)'])).toEqual(['Needs: temperature', 'Errors: temperature']));
   it('are the sources where nothing is known', () => expect(sourceTitles(['P/Plain(1,1)', 'mean(P/Needs)', 'P/Needs:excIn(1,1)'])).toEqual(['P/Plain(1,1)', 'mean(P/Needs)', 'P/Needs:excIn(1,1)']));
-  it('of a single one have its group', () => expect(['P/Needs(2,1)', 'mean(P/One)'].map(sourceTitle)).toEqual(['Needs: hydration', 'One']));
+  it('of a plot are those of its only source, or the group of all', () =>
+    expect([['P/Needs(2,1)'], ['mean(P/One)'], ['P/Needs(1,1)', 'P/Needs(2,1)'], ['P/Needs(1,1)', 'P/Errors(2,1)'], ['P/Plain(1,1)', 'P/Plain(2,1)'], []].map(plotTitle)).toEqual(['Needs: hydration', 'One', 'Needs', '', '', '']));
 });
 
 it('moments and spans are seconds, with the cycles in brackets', () => {
