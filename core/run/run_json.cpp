@@ -151,7 +151,8 @@ std::optional<FinishedRun> read_run_json(const std::string& directory) {
         out.input.lenient = json.value("lenient", false);
         out.command = json.value("command", std::vector<std::string>());
         out.inputs = json.value("inputs", InputFiles());
-        out.seconds_per_cycle = world.value("seconds_per_cycle", 0.0);
+        const double rate = system.value("cycles_per_second", 0.0);
+        out.seconds_per_cycle = world.value("seconds_per_cycle", rate > 0 ? 1 / rate : 0);
         for (const auto& f : result.value("files", Json::array()))
             if (f.get<std::string>() == file_name(f.get<std::string>())) out.files.push_back(f);
         for (const auto& r : result.value("recordings", Json::array()))
