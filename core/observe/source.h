@@ -9,7 +9,6 @@
 
 #include "core/model/pattern.h"
 #include "core/observe/column.h"
-#include "core/types/cell_names.h"
 
 namespace forage::observe {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/base/archive.h"
-#include "core/types/cell_names.h"
+#include "core/engine/plan/layout.h"
 #include "tools/plot/canvas.h"
 
 namespace forage::plot {
