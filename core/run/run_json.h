@@ -21,11 +21,11 @@ std::vector<std::pair<std::string, std::string>> run_attributes(
 
 /// The content of run.json about a run that has ended.
 struct FinishedRun {
-    RunInput input;                    ///< system, world, seed, settings and leniency
-    std::vector<std::string> command;  ///< the words after "forage" that decide its results
-    InputFiles inputs;                 ///< digests of all files that it has read
-    double seconds_per_cycle = 0;      ///< duration of a cycle, s; 0 when it is not known
-    std::vector<std::string> files;    ///< names of the files beside run.json
+    RunInput input;                                  ///< system, world, seed, settings and leniency
+    std::vector<std::string> command;                ///< the words after "forage" that decide its results
+    InputFiles inputs;                               ///< digests of all files that it has read
+    double seconds_per_cycle = 0;                    ///< duration of a cycle, s; 0 when it is not known
+    std::vector<std::string> files;                  ///< names of the files beside run.json
     std::vector<ResultFiles::Recording> recordings;  ///< the sources that files hold
     std::vector<std::pair<std::string, std::string>>
         settings;  ///< the settings of the run, in the order of the file
