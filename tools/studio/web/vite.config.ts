@@ -42,7 +42,7 @@ export default defineConfig(({ mode }) => ({
     target: 'es2022',
     chunkSizeWarningLimit: 700,
     rollupOptions: {
-      ...(mode === 'web' ? { input: ['index.html', 'src/browser/worker.ts'] } : {}),
+      ...(mode === 'web' ? { input: ['index.html', 'src/browser/worker.ts', 'src/browser/service_worker.ts'] } : {}),
       output: {
         entryFileNames: 'assets/[name].js',
         chunkFileNames: 'assets/[name].js',

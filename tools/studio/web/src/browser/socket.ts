@@ -3,7 +3,11 @@ import type { Socket } from '../connection';
 import { linkedIn } from './link';
 
 /** What the page asks of the worker, beside messages for the session. */
-export type Wish = { open: { system: string; world: string; files: Record<string, string> } } | { hidden: boolean } | { read: string } | { write: string; bytes: ArrayBuffer };
+export type Wish =
+  | { open: { system: string; world: string; files: Record<string, string>; /** Whether the robot is to run before all is loaded. */ first: boolean } }
+  | { hidden: boolean }
+  | { read: string }
+  | { write: string; bytes: ArrayBuffer };
 /** What the worker answers, beside messages of the session. */
 export type Answer = { failed: string } | { note: string } | { content: Uint8Array | string } | { refused: string };
 
@@ -24,10 +28,10 @@ async function asked(): Promise<Wish> {
     // Among what comes with Forage, which Save leaves as it is. Links to different systems do not meet there.
     const folder = `${shipped}link/${hash(location.hash)}`, system = `${folder}/${linked.name.replace(/[^\w .-]/g, '_') || 'system'}.iqr`;
     const world = linked.worldText ? `${folder}/linked.world` : linked.world;
-    return { open: { system, world, files: { [system]: linked.system, ...(linked.worldText ? { [world]: linked.worldText } : {}) } } };
+    return { open: { system, world, files: { [system]: linked.system, ...(linked.worldText ? { [world]: linked.worldText } : {}) }, first: false } };
   }
   const given = new URLSearchParams(location.search), system = given.get('system') ?? 'dac_foraging.iqr', world = given.get('world') ?? (given.has('system') ? '' : 'basic_arena.world');
-  return { open: { system: shipped + system, world: world && `${shipped}worlds/${world}`, files: {} } };
+  return { open: { system: shipped + system, world: world && `${shipped}worlds/${world}`, files: {}, first: !given.has('system') && !navigator.serviceWorker?.controller } };
 }
 
 /** A socket to a worker with a session. `note` tells the user something. */
@@ -57,11 +61,15 @@ export function workerSocket(note: (text: string) => void): Socket {
     if (state !== WebSocket.OPEN) {
       state = WebSocket.OPEN;
       socket.onopen?.();
+      // The next visit needs no network, at addresses with https. Without it, and in private windows of some browsers, each visit does.
+      navigator.serviceWorker?.register('service_worker.js').catch(() => {});
     }
     socket.onmessage?.({ data });
   };
   worker.onerror = (event) => fail(`The simulator has failed: ${event.message}`);
-  document.addEventListener('visibilitychange', () => worker.postMessage({ hidden: document.hidden }));
+  const hide = () => worker.postMessage({ hidden: document.hidden });
+  document.addEventListener('visibilitychange', hide);
+  hide();
   asked().then((wish) => worker.postMessage(wish), (error: Error) => fail(error.message));
   return socket;
 }

@@ -1,26 +1,12 @@
 // The session of a studio without a server. It gets and posts the same messages as a server (socket.ts).
+import { address, loadEngine, loadRest, type Engine } from './engine';
 import type { Answer, Wish } from './socket';
-
-interface Engine {
-  ccall(name: string, result: 'string' | 'number' | null, types: 'string'[], values: string[]): unknown;
-  FS: {
-    mkdirTree(path: string): void;
-    mount(kind: unknown, options: { autoPersist: boolean }, path: string): void;
-    syncfs(load: boolean, done: (error: unknown) => void): void;
-    chdir(path: string): void;
-    readFile(path: string): Uint8Array;
-    writeFile(path: string, content: string | Uint8Array): void;
-    analyzePath(path: string): { exists: boolean };
-    createLazyFile(folder: string, name: string, url: string, reads: boolean, writes: boolean): void;
-  };
-  IDBFS: unknown;
-}
 
 const home = '/home/web_user';
 const post = (answer: Answer) => postMessage(answer);
 
 /** Whether this is the tab that keeps files: two at a time would write over each other. */
-function first(): Promise<boolean> {
+function keepsFiles(): Promise<boolean> {
   if (!navigator.locks) return Promise.resolve(false); // at an address without https
   return new Promise((resolve) =>
     // A tab that has just been closed or reloaded still has it for a moment.
@@ -33,10 +19,7 @@ function first(): Promise<boolean> {
 
 /** Loads the simulator, and the files that this browser keeps of the user. */
 async function load(): Promise<Engine> {
-  const from = new URL('../forage-web.mjs', self.location.href);
-  const { default: create } = (await import(/* @vite-ignore */ from.href)) as { default(options: object): Promise<Engine> };
-  const [engine, keeps] = await Promise.all([create({ locateFile: (name: string) => new URL(name, from).href }), first()]);
-  for (const name of ['DejaVuSans.ttf', 'DejaVuSans-Bold.ttf']) engine.FS.createLazyFile('/forage/fonts', name, new URL(`../fonts/${name}`, self.location.href).href, true, false);
+  const [engine, keeps] = await Promise.all([loadEngine(), keepsFiles()]);
   engine.FS.mkdirTree(home);
   let failed: unknown = navigator.locks ? 'another tab of this browser keeps the files of the studio' : 'files are kept at addresses with https only';
   if (keeps) {
@@ -70,8 +53,9 @@ function work(): void {
   } else if (seconds < 3600) timer = setTimeout(work, seconds * 1000);
 }
 
-async function open({ system, world, files }: Extract<Wish, { open: unknown }>['open']): Promise<void> {
-  const loaded = await loading;
+async function open({ system, world, files, first }: Extract<Wish, { open: unknown }>['open']): Promise<void> {
+  const rest = first ? null : loadRest(), loaded = await loading;
+  await rest;
   for (const [path, text] of Object.entries(files)) {
     loaded.FS.mkdirTree(path.replace(/\/[^/]*$/, ''));
     loaded.FS.writeFile(path, text);
@@ -80,6 +64,29 @@ async function open({ system, world, files }: Extract<Wish, { open: unknown }>['
   if (wrong) throw new Error(wrong);
   engine = loaded;
   work();
+  // A call that comes before it is there loads it at once.
+  if (first) await loadRest().catch(() => post({ note: 'A part of the simulator could not be loaded. Reload the page when there is a network.' }));
+}
+
+let fonts: Promise<void> | undefined;
+/** Fetches the fonts of figures, which the first visit does without. */
+async function loadFonts(): Promise<void> {
+  for (const name of ['DejaVuSans.ttf', 'DejaVuSans-Bold.ttf']) {
+    const answer = await fetch(address(`fonts/${name}`));
+    if (!answer.ok) throw new Error(answer.statusText);
+    engine!.FS.writeFile(`/forage/fonts/${name}`, new Uint8Array(await answer.arrayBuffer()));
+  }
+}
+
+const receive = (message: string): unknown => engine?.ccall('forage_receive', null, ['string'], [message]);
+
+/** Lets the session draw a figure when it has the fonts. */
+function drawWithFonts(message: string): void {
+  fonts ??= loadFonts();
+  fonts.then(() => receive(message), () => {
+    fonts = undefined;
+    postMessage(JSON.stringify({ type: 'reply', id: JSON.parse(message).id, ok: false, problems: [{ message: 'the fonts of figures could not be fetched', hint: 'try again when there is a network' }] }));
+  });
 }
 
 const read = (path: string): Uint8Array => engine!.FS.readFile(path);
@@ -102,7 +109,7 @@ function answer(act: () => Uint8Array | string): void {
 }
 
 self.onmessage = ({ data }: MessageEvent<Wish | string>) => {
-  if (typeof data === 'string') engine?.ccall('forage_receive', null, ['string'], [data]);
+  if (typeof data === 'string') (data.includes('"command":"figure"') ? drawWithFonts : receive)(data);
   else if ('open' in data) return void open(data.open).catch((error: Error) => post({ failed: error.message }));
   else if ('hidden' in data) hidden = data.hidden;
   else if ('read' in data) answer(() => read(data.read));

@@ -24,24 +24,31 @@ export async function launch() {
 }
 
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.mjs': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.svg': 'image/svg+xml', '.png': 'image/png' };
-/** Serves the files of a site (tools/web), until the test ends. Returns the address of its studio. */
-export async function serve(site) {
+/** Serves the files of a site (tools/web) until `close()` or the end of the test, at a free port or at the one of `address`, which is that of the studio. */
+export async function serve(site, address = 'http://127.0.0.1:0') {
   const server = createServer(({ url }, response) => {
     const path = join(site, normalize(new URL(url, 'http://x').pathname).replace(/\/$/, '/index.html'));
     if (!existsSync(path) || statSync(path).isDirectory()) return response.writeHead(404).end();
     response.writeHead(200, { 'Content-Type': types[extname(path)] ?? 'application/octet-stream' });
     createReadStream(path).pipe(response);
   });
-  await new Promise((ready) => server.listen(0, '127.0.0.1', ready));
+  await new Promise((ready) => server.listen(new URL(address).port, '127.0.0.1', ready));
   server.unref();
-  return `http://127.0.0.1:${server.address().port}/studio/`;
+  const close = () => new Promise((closed) => (server.close(closed), server.closeAllConnections()));
+  return { address: `http://127.0.0.1:${server.address().port}/studio/`, close };
 }
 
 const usual = ['systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world'];
 
+/** The browser of that name: Firefox, or by default Chromium. */
+export async function launchNamed(name) {
+  const { firefox } = await import('playwright-core');
+  return name === 'firefox' ? firefox.launch({ channel: 'moz-firefox', executablePath: '/usr/bin/firefox-esr' }) : launch();
+}
+
 /** The studio without a server, called as `forage studio` would be: with what comes with Forage, or with a system in a link. */
 async function startInBrowser(site, folder, [system, , world = ''] = usual) {
-  const address = await serve(site), name = (path) => /^systems\/(?:worlds\/)?(.*)/.exec(path)?.[1] ?? '';
+  const { address } = await serve(site), name = (path) => /^systems\/(?:worlds\/)?(.*)/.exec(path)?.[1] ?? '';
   if (name(system)) return `${address}?system=${name(system)}&world=${name(world)}`;
   const linked = { name: system.replace('.iqr', ''), system: readFileSync(join(folder, system), 'utf8'), world: '' };
   return `${address}#system=${deflateRawSync(JSON.stringify(linked)).toString('base64url')}`;

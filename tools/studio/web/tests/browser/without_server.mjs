@@ -1,13 +1,10 @@
 // The studio without a server, from a folder of static files: node without_server.mjs SITE [firefox]; without a name, in Chromium.
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
-import { firefox } from 'playwright-core';
-import { eventually, launch, serve } from './support.mjs';
+import { eventually, launchNamed, serve } from './support.mjs';
 
 const [, , site, name] = process.argv, patience = 60000;
-const home = await serve(site);
-
-const browser = name ? await firefox.launch({ channel: 'moz-firefox', executablePath: '/usr/bin/firefox-esr' }) : await launch();
+const { address: home } = await serve(site), browser = await launchNamed(name);
 const context = await browser.newContext({ viewport: { width: 1400, height: 900 } });
 context.setDefaultTimeout(patience);
 // Browsers ask the user before a page may read the clipboard.
@@ -38,6 +35,22 @@ let page = await open('');
 await page.getByRole('button', { name: 'Run', exact: true }).click();
 await eventually('cycles', async () => (await cycle(page)) > 20);
 if (process.env.FORAGE_PICTURES) await page.screenshot({ path: join(process.env.FORAGE_PICTURES, 'without-server.png') });
+
+step('a page that is hidden does not compute');
+const hide = (hidden) =>
+  page.evaluate((is) => {
+    Object.defineProperty(document, 'hidden', { configurable: true, get: () => is });
+    document.dispatchEvent(new Event('visibilitychange'));
+  }, hidden);
+await hide(true);
+await eventually('the run rests', async () => {
+  const before = await cycle(page);
+  await page.evaluate(() => new Promise((done) => setTimeout(done, 500)));
+  return (await cycle(page)) === before;
+});
+const rested = await cycle(page);
+await hide(false);
+await eventually('the run goes on', async () => (await cycle(page)) > rested);
 
 step('a system that is changed is saved');
 await page.getByRole('button', { name: 'Pause', exact: true }).click();
