@@ -50,7 +50,7 @@ await eventually('the run rests', async () => {
 });
 const rested = await cycle(page);
 await hide(false);
-await eventually('the run goes on', async () => (await cycle(page)) > rested);
+await eventually('the run continues', async () => (await cycle(page)) > rested);
 
 step('a system that is changed is saved');
 await page.getByRole('button', { name: 'Pause', exact: true }).click();
