@@ -17,7 +17,8 @@ namespace forage::studio {
 /// interval doubles. Checkpoints take at most a hundredth of the time.
 class History {
   public:
-    explicit History(std::size_t most_bytes = 256u << 20) : most_(most_bytes) {}
+    /// In a browser's tab, whose addresses have 32 bits, the past takes less.
+    explicit History(std::size_t most_bytes = (sizeof(void*) < 8 ? 64u : 256u) << 20) : most_(most_bytes) {}
 
     /// An action that changed the run before the cycle with this number.
     struct Action {
