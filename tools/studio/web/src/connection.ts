@@ -60,6 +60,8 @@ export class Connection {
   private socket: Socket | null = null;
   private nextId = 1;
   private waiting = new Map<number, Waiting>();
+  /** Commands of a page that was quicker than its connection. */
+  private early: string[] = [];
   private arrived: Frame[] = [];
   private scheduled = false;
   private attempts = 0;
@@ -77,7 +79,9 @@ export class Connection {
     const socket = this.connect();
     socket.binaryType = 'arraybuffer';
     this.socket = socket;
-    socket.onopen = () => socket.send(JSON.stringify({ token: this.token.get() }));
+    socket.onopen = () => {
+      for (const text of [JSON.stringify({ token: this.token.get() }), ...this.early.splice(0)]) socket.send(text);
+    };
     socket.onmessage = (event) => this.receive(event.data as string | ArrayBuffer);
     socket.onclose = (event) => {
       if (event.code === policyViolation) {
@@ -93,17 +97,19 @@ export class Connection {
     this.socket?.close();
   }
 
-  /** Sends a command. Resolves with its result, rejects with a CommandError. */
+  /** Sends a command, at once or when the connection opens. Resolves with its result, rejects with a CommandError. */
   request<C extends CommandName>(command: C, ...[given]: Arguments<C>): Promise<Result<C>> {
-    const id = this.nextId++;
-    if (this.socket?.readyState !== WebSocket.OPEN) return Promise.reject(new CommandError([{ message: 'there is no connection to the server' }]));
-    this.socket.send(JSON.stringify({ id, command, ...given }));
+    const id = this.nextId++, text = JSON.stringify({ id, command, ...given });
+    if (this.socket?.readyState === WebSocket.OPEN) this.socket.send(text);
+    else if (this.socket?.readyState === WebSocket.CONNECTING) this.early.push(text);
+    else return Promise.reject(new CommandError([{ message: 'there is no connection to the server' }]));
     return new Promise<Result<C>>((resolve, reject) => this.waiting.set(id, { resolve: resolve as Waiting['resolve'], reject }));
   }
 
   private lost(): void {
     for (const w of this.waiting.values()) w.reject(new CommandError([{ message: 'the connection was lost' }]));
     this.waiting.clear();
+    this.early = [];
     this.arrived = [];
     this.events.link('lost');
     if (this.closed) return;

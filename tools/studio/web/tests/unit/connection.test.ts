@@ -3,6 +3,7 @@ import { CommandError, Connection, type Socket } from '../../src/connection';
 import { makeFrame } from './make_frame';
 
 class FakeSocket {
+  static readonly CONNECTING = 0;
   static readonly OPEN = 1;
   static made: FakeSocket[] = [];
   readyState = 0;
@@ -127,6 +128,25 @@ describe('Connection', () => {
     expect(FakeSocket.made).toHaveLength(3);
     FakeSocket.made[2]!.open();
     expect(events.link).toHaveBeenLastCalledWith('open');
+  });
+
+  it('sends commands that come before the connection is open after its token', async () => {
+    const { connection, socket } = connected();
+    socket.close();
+    vi.advanceTimersByTime(250);
+    const again = FakeSocket.made[1]!;
+    const types = connection.request('types');
+    expect(again.sent).toEqual([]);
+    again.open();
+    expect(again.sent.map((m) => m.command)).toEqual([undefined, 'types']);
+    again.onmessage({ data: JSON.stringify({ type: 'reply', id: again.sent[1]!.id, ok: true, result: { neurons: [] } }) });
+    await expect(types).resolves.toEqual({ neurons: [] });
+
+    again.close();
+    vi.advanceTimersByTime(250);
+    const run = connection.request('run');
+    FakeSocket.made[2]!.close();
+    await expect(run).rejects.toThrow('the connection was lost');
   });
 
   it('refuses commands without a connection, and stays closed after close()', async () => {
