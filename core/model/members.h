@@ -157,7 +157,7 @@ void each_member(F f) {
     constexpr bool derived = std::derived_from<Struct, TypeUse> && !std::same_as<Struct, TypeUse>;
     static_assert(
         listed_members<Struct> == member_count<Struct>() + (derived ? listed_members<TypeUse> - 1 : 0),
-        "members_of<Struct> must list all members of the struct");
+        "add the new member to the list of its struct above, with its name and effect");
     std::apply([&](const auto&... members) { (f(members), ...); }, members_of<Struct>);
 }
 

@@ -53,7 +53,8 @@ struct Command {
     void (*repeat)(Session& session, const json& action) = nullptr;
     /// The action that undoes such an action, before it is applied. Throws InputError for one that is wrong.
     json (*inverse)(Session& session, const json& action) = nullptr;
-    /// How to do such an action without the studio, before it is applied.
+    /// How to do such an action without the studio, before it is applied. Actions that are not repeated give
+    /// theirs when they are logged (LoggedAction).
     Equivalent (*script)(Session& session, const json& action) = nullptr;
 };
 

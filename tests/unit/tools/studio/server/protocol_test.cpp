@@ -1,5 +1,6 @@
 // What is made of the table of commands: types of the page, tables of the docs, seeds of the fuzzer. With
 // FORAGE_REWRITE_EXPECTATIONS=1 the files are written; otherwise they are compared.
+#include <algorithm>
 #include <cstdlib>
 #include <functional>
 #include <set>
@@ -22,10 +23,13 @@ const std::string root = FORAGE_SOURCE_DIR "/";
 const std::string docs = root + "docs/design/studio-protocol.md";
 
 void expect_file(const std::string& path, const std::string& content) {
-    if (std::getenv("FORAGE_REWRITE_EXPECTATIONS"))
-        write_file(path, content);
-    else
-        CHECK(read_file(path) == content);
+    if (std::getenv("FORAGE_REWRITE_EXPECTATIONS")) return write_file(path, content);
+    const auto kept = read_file(path);
+    const auto differs = std::ranges::mismatch(kept, content);
+    const auto line = std::count(kept.begin(), differs.in1, '\n') + 1;
+    INFO(path << ":" << line << " differs: run ./tools/update-docs");
+    CHECK(kept.size() == content.size());
+    CHECK((differs.in1 == kept.end() && differs.in2 == content.end()));
 }
 
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
