@@ -61,6 +61,20 @@ export default async function({ folder, start, open, faults: thrown, step }) {
         assert.deepEqual(found, [], `page ${i} of ${system} at ${width}`);
       }
     }
+    if (system !== 'allostasis') {
+      step(`${system}: whole names in the diagram beside the arena, on each page`);
+      await page.setViewportSize({ width: 1400, height: 900 });
+      await find(page, 'layout: overview');
+      for (let i = 0; i < (await tabs.count()); i++) {
+        await tabs.nth(i).click();
+        await until(page, 'this page', (n) => document.querySelectorAll('[aria-label="Processes"] button')[n].matches('.on'), i);
+        await until(page, `page ${i} of ${system}: whole names`, () => {
+          const names = [...document.querySelectorAll('.svelte-flow__node-item .item:not(.phantom) .name')].map((n) => n.textContent);
+          return names.length > 0 && names.every((n) => n && !n.includes('…'));
+        });
+        await picture(page, `${system}-overview-${i}`);
+      }
+    }
     await page.close();
   }
 
