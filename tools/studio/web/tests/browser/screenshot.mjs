@@ -1,17 +1,14 @@
 // The pictures of the docs: node screenshot.mjs FORAGE SOURCES OUTPUT [WIDTH HEIGHT light|dark [tutorial|build]]
 import { spawn } from 'node:child_process';
 import { resolve } from 'node:path';
-import { chromium } from 'playwright-core';
+import { launch } from './support.mjs';
 
 const [forage, sources, output] = process.argv.slice(2, 5).map((p) => resolve(p));
 const [width = 1400, height = 900, colorScheme = 'light', shown] = process.argv.slice(5);
 const tutorial = shown === 'tutorial';
 const studio = spawn(forage, ['studio', shown === 'build' ? 'systems/reactive_foraging.iqr' : 'systems/dac_foraging.iqr', '--world', 'systems/worlds/basic_arena.world'], { cwd: sources });
 const address = await new Promise((found) => studio.stdout.on('data', (text) => found(/http:\/\/\S+/.exec(text)[0])));
-const browser = await chromium.launch({
-  executablePath: '/usr/bin/chromium',
-  args: ['--no-sandbox', ...(tutorial ? ['--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] : ['--disable-gpu']), '--disable-background-networking'],
-});
+const browser = await launch();
 try {
   const page = await browser.newPage({ viewport: { width: Number(width), height: Number(height) }, colorScheme });
   await page.goto(address);
