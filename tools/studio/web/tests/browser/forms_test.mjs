@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readdirSync, readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { find, until } from './support.mjs';
+import { find, picture, until } from './support.mjs';
 
 export default async function({ folder, context, start, open, faults, step }) {
   await context.grantPermissions(['clipboard-read', 'clipboard-write']);
@@ -61,6 +61,34 @@ export default async function({ folder, context, start, open, faults, step }) {
   await inView(false);
   await find(page, 'Bug/Light');
   await inView(true);
+
+  step('a group that takes the name of another one says how commands call it; so does the other');
+  await row('contextual.collector').click();
+  await heading('Contextual/Collector');
+  const called = inspector.getByLabel('Name', { exact: true });
+  await called.fill('Distance');
+  await called.press('Enter');
+  await inspector.getByText("another group of this process is called so, too; commands call this one 'Contextual/Distance#contextual.collector'").waitFor();
+  await picture(page, 'shared-name');
+  await row('contextual.distance').click();
+  await inspector.getByText("there is already a group 'Contextual/Distance'").waitFor();
+  assert.equal(await inspector.locator('.problem').count(), 1);
+  await page.getByRole('button', { name: 'Undo' }).click();
+  await inspector.locator('.problem').waitFor({ state: 'detached' });
+
+  step('messages stand beside the inspector, in windows of each size');
+  for (const [width, height] of [[1024, 700], [700, 700], [1400, 900]]) {
+    await page.setViewportSize({ width, height });
+    await find(page, 'Bug/Light');
+    await heading('Bug/Light');
+    await page.evaluate(() => document.activeElement.blur());
+    for (let i = 0; i < 2; i++) await page.keyboard.press('Control+z');
+    await until(page, `a message beside the inspector at ${width}`, () => {
+      const message = document.querySelector('.notice')?.getBoundingClientRect(), forms = document.querySelector('[aria-label="Inspector"]').getBoundingClientRect();
+      return message && message.left >= 0 && message.width > 150 && message.right <= forms.left;
+    });
+    await picture(page, `message-${width}`);
+  }
 
   step('an empty name, and numbers out of their range, are refused at the field');
   await row('bug.motor').click();
