@@ -188,12 +188,27 @@ export default async function({ folder, start, open, faults, step }) {
   await time.getByRole('button', { name: 'Whole' }).waitFor({ state: 'detached' });
   await page.getByRole('button', { name: 'Pause', exact: true }).click();
 
+  step('time: in a narrow column the bar leaves room for the plot; what is rarely chosen opens below it');
+  const more = time.getByRole('button', { name: 'More' });
+  assert.equal(await time.getByLabel('Seconds shown').count(), 0);
+  await more.click();
+  for (const choice of ['Seconds shown', 'Vertical scale', 'Save']) await time.getByLabel(choice, { exact: true }).waitFor();
+  await picture(page, 'time-choices');
+  await more.click();
+  await time.getByLabel('Seconds shown').waitFor({ state: 'detached' });
+  await page.setViewportSize({ width: 2600, height: 900 });
+  await more.waitFor({ state: 'detached' });
+  await time.getByLabel('Seconds shown').waitFor();
+  await page.setViewportSize({ width: 1400, height: 900 });
+  await more.click();
+
   step('time: the scale is kept in the layout');
   await time.getByLabel('Vertical scale').selectOption('manual');
   await time.getByLabel('Highest value').fill('2.5');
   await time.getByLabel('Highest value').press('Enter');
   await until(page, 'the layout', () => Object.keys(localStorage).some((k) => k.startsWith('layout') && localStorage.getItem(k).includes('"high":2.5')));
   await page.reload();
+  await more.click();
   await until(page, 'the scale', () => [...document.querySelectorAll('[aria-label="Highest value"]')].some((i) => i.value === '2.5'));
   await show('Bug/Motor');
 
