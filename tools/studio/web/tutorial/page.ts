@@ -67,7 +67,7 @@ function setupHtml(setup: Setup, number: number): string {
     inline(setup.say)
   }</p>${choices.join('')}${setup.checks.length ? checksHtml : ''}</section>\n`;
 }
-const checksHtml = '<div class="checks"><button type="button" class="outlined" data-check disabled>Check what I have seen</button><ul role="status"></ul></div>';
+const checksHtml = '<div class="checks"><button type="button" class="outlined" data-check disabled>Check what I have seen</button><div role="status"><ul></ul></div></div>';
 const inline = (text: string) => new Marked({ renderer: { html: ({ text }) => escape(text) } }).parseInline(text) as string;
 
 /** `id` is the name of the file without `.md`, `ids` those of all pages. Throws when the text has HTML that is not known here. */
