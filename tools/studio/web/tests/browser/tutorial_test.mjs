@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
-import { accessible, picture, until } from './support.mjs';
+import { accessible, answeredTo, picture, sent, until } from './support.mjs';
 
 export default async function({ site, folder, start, open, faults, step }) {
   const page = await open(await start().address);
@@ -188,6 +188,26 @@ export default async function({ site, folder, start, open, faults, step }) {
   await tutorial.locator('.setup:not(.active) [aria-pressed]').first().waitFor({ state: 'detached' }); // its values were about another system
   assert.equal(await drop.count(), 0, 'what is saved is not lost');
   await change();
+  await tutorial.locator('[data-open="1"]').click();
+  await drop.click();
+  await tutorial.locator('.setup.active [data-open="1"]').waitFor();
+
+  step('what the user changes while a choice acts is not taken for a part of it');
+  await tutorial.locator('[data-open="0"]').click();
+  await tutorial.locator('.setup.active [data-open="0"]').waitFor();
+  await page.evaluate((send) => {
+    const socket = window.socket;
+    socket[send] = (data) => {
+      if (typeof data === 'string' && JSON.parse(data).command === 'stop') {
+        delete socket[send];
+        for (const command of ['undo', 'redo']) socket[send](JSON.stringify({ id: 1e9, command }));
+        socket[send](data);
+      } else Object.getPrototypeOf(socket)[send].call(socket, data);
+    };
+  }, site ? 'postMessage' : 'send');
+  const stops = await sent(page, 'stop');
+  await tutorial.getByRole('button', { name: 'Adaptive.eta = 0.005' }).first().click();
+  await answeredTo(page, 'stop', stops);
   await tutorial.locator('[data-open="1"]').click();
   await drop.click();
   await tutorial.locator('.setup.active [data-open="1"]').waitFor();
