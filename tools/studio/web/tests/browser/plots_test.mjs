@@ -130,6 +130,8 @@ export default async function({ folder, start, open, faults, step }) {
   const time = page.locator('.panel:has(.uplot)').filter({ visible: true });
   await show('mean(Bug/Motor:act(4..6,1..2)) over time');
   const editor = page.getByRole('form', { name: 'Add a source' });
+  const more = time.getByRole('button', { name: 'More' });
+  await more.click();
   await time.getByRole('button', { name: 'Add', exact: true }).click();
   await editor.getByLabel('Group or connection').selectOption('Bug/Light');
   await editor.getByLabel('State').selectOption('excIn');
@@ -189,13 +191,11 @@ export default async function({ folder, start, open, faults, step }) {
   await page.getByRole('button', { name: 'Pause', exact: true }).click();
 
   step('time: in a narrow column the bar leaves room for the plot; what is rarely chosen opens below it');
-  const more = time.getByRole('button', { name: 'More' });
-  assert.equal(await time.getByLabel('Seconds shown').count(), 0);
-  await more.click();
   for (const choice of ['Seconds shown', 'Vertical scale', 'Save']) await time.getByLabel(choice, { exact: true }).waitFor();
   await picture(page, 'time-choices');
   await more.click();
   await time.getByLabel('Seconds shown').waitFor({ state: 'detached' });
+  await picture(page, 'time-folded');
   await page.setViewportSize({ width: 2600, height: 900 });
   await more.waitFor({ state: 'detached' });
   await time.getByLabel('Seconds shown').waitFor();
