@@ -61,7 +61,7 @@ export default async function({ folder, context, start, open, faults, step }) {
   const differing = original.split('\n').flatMap((l, i) => (l === saved[i] ? [] : [i]));
   assert.equal(saved.length, original.split('\n').length);
   assert.equal(differing.length, 1);
-  assert.match(saved[differing[0]], /<DiagramIcon x="\d+" y="\d+" width="50" height="50"\/>/);
+  assert.match(saved[differing[0]], /<DiagramIcon x="\d+" y="\d+" width="\d+" height="50"\/>/);
 
   step('a vertex is added by Ctrl and click, dragged, and deleted by a key');
   const c = 'c.approach-ur';
