@@ -204,11 +204,14 @@ std::string opened_in_python(const Opened& o) {
 
 }  // namespace
 
-Equivalent of_run(const RunLength& length) {
+Equivalent of_run(const RunLength& length, const RunLength& from_start) {
     std::string count, shell;
-    if (length.trials) count = fmt::format("trials={}", *length.trials);
-    if (length.seconds) count = fmt::format("seconds={}", *length.seconds);
-    if (!count.empty()) shell = "--" + count, shell[shell.find('=')] = ' ';
+    if (length.trials)
+        count = fmt::format("trials={}", *length.trials),
+        shell = fmt::format("--trials {}", *from_start.trials);
+    if (length.seconds)
+        count = fmt::format("seconds={}", *length.seconds),
+        shell = fmt::format("--seconds {}", *from_start.seconds);
     const std::string& condition = length.until.text;
     if (condition.empty()) return {shell, fmt::format("run.run({})", count)};
     if (!shell.empty()) shell += ' ';

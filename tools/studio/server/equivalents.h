@@ -62,8 +62,9 @@ struct Opened {
 /// It begins with another seed, or in another world; the world is empty for none.
 Equivalent of_restart(const Opened& opened);
 Equivalent of_world(const Opened& opened);
-/// A run until so many trials have ended or a condition holds; it is empty for none.
-Equivalent of_run(const RunLength& length);
+/// A run until so many trials have ended or a condition holds; it is empty for none. On the command line,
+/// trials and seconds count from the start of the run.
+Equivalent of_run(const RunLength& length, const RunLength& from_start);
 /// A recording into a file, of every n-th cycle from the first to the last one.
 struct Sampled {
     std::vector<std::string> sources;

@@ -50,7 +50,10 @@ json run_until(Session& s, const Request& r) {
     if (length.seconds) title += fmt::format(" {} s", *length.seconds);
     if (!length.until.empty())
         title += fmt::format("{} until {}", length.trials || length.seconds ? " or" : "", length.until.text);
-    s.log({.command = "run_until", .title = title, .scripts = of_run(length)});
+    RunLength from_start = length;
+    if (length.trials) from_start.trials = *length.trials + s.live.pause_when->since.trials;
+    if (length.seconds) from_start.seconds = *length.seconds + s.run().seconds();
+    s.log({.command = "run_until", .title = title, .scripts = of_run(length, from_start)});
     return json::object();
 }
 

@@ -8,6 +8,8 @@
 #include <map>
 #include <set>
 
+#include <fmt/format.h>
+
 #include "bug_interface/simulation/world.h"
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
@@ -224,10 +226,14 @@ TEST_CASE("a run of some seconds pauses after them, from where it is") {
         for (double now = 100; f.session.running() && now < 1e5; ++now) f.session.work(now);
         CHECK(f.session.run().cycle() == cycles);
     }
-    const auto logged = std::ranges::find(f.messages[1], "action", [](const json& m) { return m["type"]; });
-    REQUIRE(logged != f.messages[1].end());
-    CHECK((*logged)["shell"].get<std::string>().starts_with("--seconds "));
-    CHECK((*logged)["python"].get<std::string>().starts_with("run.run(seconds="));
+    std::vector<std::pair<json, json>> scripts;
+    for (const json& m : f.messages[1])
+        if (m["type"] == "action") scripts.emplace_back(m["shell"], m["python"]);
+    const double seconds = 50 * f.session.run().seconds_per_cycle();
+    CHECK(scripts ==
+          std::vector<std::pair<json, json>>{
+              {fmt::format("--seconds {}", seconds), fmt::format("run.run(seconds={})", seconds)},
+              {fmt::format("--seconds {}", 2 * seconds), fmt::format("run.run(seconds={})", seconds)}});
 }
 
 TEST_CASE("whether a condition holds is said at any time") {
