@@ -18,11 +18,13 @@ async function find(check: Check, before: Finding | undefined): Promise<Finding>
 export async function showFindings(button: HTMLElement, checks: Check[], before: Finding[]): Promise<Finding[]> {
   const found: Finding[] = [];
   for (const [i, check] of checks.entries()) found.push(await find(check, before[i]));
-  button.parentElement!.querySelector('ul')!.replaceChildren(...found.map(({ right, text }) => {
+  const list = button.parentElement!.querySelector('ul')!;
+  list.replaceChildren(...found.map(({ right, text }) => {
     const line = document.createElement('li');
     line.className = right === null ? 'open' : right ? 'right' : 'wrong';
     line.textContent = text;
     return line;
   }));
+  list.scrollIntoView({ block: 'nearest' });
   return found;
 }

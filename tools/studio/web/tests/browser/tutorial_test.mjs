@@ -108,8 +108,13 @@ export default async function({ site, folder, start, open, faults, step }) {
   await page.getByRole('group', { name: 'Trials' }).getByRole('button', { name: 'Run', exact: true }).click();
   await page.getByText('14 of 30 reached the target').waitFor();
   await page.getByRole('button', { name: 'Run', exact: true }).first().waitFor();
-  await reflex.getByRole('button', { name: 'Check what I have seen' }).click();
-  await reflex.getByText('You have seen 16 misses in 30 trials (53 %): right, the text expects 30 % to 80 %.').waitFor();
+  const check = reflex.getByRole('button', { name: 'Check what I have seen' });
+  await check.evaluate((button) => button.scrollIntoView({ block: 'end' }));
+  await check.click();
+  const answer = reflex.getByText('You have seen 16 misses in 30 trials (53 %): right, the text expects 30 % to 80 %.');
+  await answer.waitFor();
+  const line = await answer.boundingBox(), around = await tutorial.boundingBox();
+  assert.ok(line.y + line.height < around.y + around.height + 1, 'the answer is in sight');
   await picture(page, 'tutorial-checked');
 
   step('in narrow windows all that it names is seen: the trials, and plots that can be read');
