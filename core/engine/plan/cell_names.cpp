@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
 #include "core/connectivity/connect.h"
 #include "core/model/validate.h"
@@ -50,20 +51,14 @@ class Carrier {
             const std::vector<const model::Connection*>& connections, Layout& layout)
         : groups_(groups), connections_(connections), layout_(layout) {}
 
-    /// Names the sources of named groups. Returns whether there is a new name.
-    bool backwards() {
+    /// Names the sources of named groups, or their targets. Returns whether there is a new name.
+    bool carry(bool backwards) {
         bool any = false;
-        for (std::size_t i = 0; i < connections_.size(); ++i)
-            any =
-                try_connection(i, layout_.connections[i].target, layout_.connections[i].source, true) || any;
-        return any;
-    }
-    /// Names the targets of named groups.
-    bool forwards() {
-        bool any = false;
-        for (std::size_t i = 0; i < connections_.size(); ++i)
-            any =
-                try_connection(i, layout_.connections[i].source, layout_.connections[i].target, false) || any;
+        for (std::size_t i = 0; i < connections_.size(); ++i) {
+            const auto& c = layout_.connections[i];
+            const auto [from, to] = backwards ? std::pair(c.target, c.source) : std::pair(c.source, c.target);
+            any = try_connection(i, from, to, backwards) || any;
+        }
         return any;
     }
 
@@ -104,6 +99,15 @@ class Carrier {
     Layout& layout_;
 };
 
+/// The number of the group at each port of a module; -1 for none.
+std::vector<int> groups_at_ports(const Layout::Module& module) {
+    std::vector<int> out;
+    std::size_t input = 0, output = 0;
+    for (const auto& port : module.type.ports)
+        out.push_back(port.is_output ? module.output_groups[output++] : module.input_groups[input++]);
+    return out;
+}
+
 /// Names the groups at the ports of a module.
 void name_ports(const model::Process& process, const Layout::Module& module, Environment* environment,
                 Layout& layout) {
@@ -113,9 +117,10 @@ void name_ports(const model::Process& process, const Layout::Module& module, Env
     model::apply(*process.module, module.type.parameters, instance->parameters());
     ModulePorts ports = module.ports;
     ports.environment = environment;
-    std::size_t input = 0, output = 0;
-    for (const auto& port : module.type.ports) {
-        const int group = port.is_output ? module.output_groups[output++] : module.input_groups[input++];
+    const auto groups = groups_at_ports(module);
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        const auto& port = module.type.ports[i];
+        const int group = groups[i];
         if (group < 0 || !port.names) continue;
         auto& named = layout.groups[static_cast<std::size_t>(group)];
         if (!named.names.any()) named.names = port.names(instance->parameters(), ports, named.shape);
@@ -126,22 +131,15 @@ void name_ports(const model::Process& process, const Layout::Module& module, Env
 bool name_like(const Layout::Module& module, Layout& layout) {
     bool any = false;
     if (module.type.any_ports) return any;
-    std::size_t input = 0, output = 0;
-    const auto group_at = [&](std::string_view name) {
-        int found = -1;
-        std::size_t in = 0, out = 0;
-        for (const auto& port : module.type.ports) {
-            const int group = port.is_output ? module.output_groups[out++] : module.input_groups[in++];
-            if (port.name == name && found < 0) found = group;
-        }
-        return found;
-    };
-    for (const auto& port : module.type.ports) {
-        const int group = port.is_output ? module.output_groups[output++] : module.input_groups[input++];
-        const int other = port.like.empty() || group < 0 ? -1 : group_at(port.like);
-        if (other < 0) continue;
-        auto& to = layout.groups[static_cast<std::size_t>(group)];
-        const auto& from = layout.groups[static_cast<std::size_t>(other)];
+    const auto& ports = module.type.ports;
+    const auto groups = groups_at_ports(module);
+    for (std::size_t i = 0; i < ports.size(); ++i) {
+        const auto other = std::ranges::find(ports, ports[i].like, &ModulePort::name);
+        if (ports[i].like.empty() || other == ports.end()) continue;
+        const int own = groups[i], like = groups[static_cast<std::size_t>(other - ports.begin())];
+        if (own < 0 || like < 0) continue;
+        auto& to = layout.groups[static_cast<std::size_t>(own)];
+        const auto& from = layout.groups[static_cast<std::size_t>(like)];
         if (to.names.any() || !from.names.any() || !(to.shape == from.shape)) continue;
         to.names = from.names, any = true;
     }
@@ -158,7 +156,7 @@ void name_cells(const model::System& system, Environment* environment, Layout& l
     for (bool any = true; any;) {
         any = false;
         for (const auto& module : layout.modules) any = name_like(module, layout) || any;
-        any = any || carrier.backwards() || carrier.forwards();
+        any = any || carrier.carry(true) || carrier.carry(false);
     }
 }
 
