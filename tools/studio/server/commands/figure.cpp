@@ -2,12 +2,13 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 
 #include <fmt/format.h>
 
-#include "core/base/file_bytes.h"
 #include "core/base/shell_word.h"
+#include "core/base/text_file.h"
 #include "core/run/path_recorder.h"
 #include "core/run/recordings.h"
 #include "core/run/trial_recorder.h"
@@ -179,8 +180,10 @@ json draw_figure(Session& s, const Request& r) {
     throw_errors(diagnostics);
     if (files.size() != 1)
         throw InputError("a figure is one file", "several plots need a layout, such as 2x1");
+    std::ifstream in = open_file(files.front());
+    const std::string content{std::istreambuf_iterator<char>(in), {}};
     return {{"file", fs::path(files.front()).filename().string()},
-            {"content", base64(file_bytes(files.front()))},
+            {"content", base64(content)},
             {"shell", commands_of(s, r, needs)},
             {"note", difference_of(s, needs)}};
 }
