@@ -17,8 +17,7 @@ namespace forage::studio {
 /// interval doubles. Checkpoints take at most a hundredth of the time.
 class History {
   public:
-    /// In a browser's tab, whose addresses have 32 bits, the past takes less.
-    explicit History(std::size_t most_bytes = (sizeof(void*) < 8 ? 64u : 256u) << 20) : most_(most_bytes) {}
+    explicit History(std::size_t max_bytes = usual_bytes) : max_bytes_(max_bytes) {}
 
     /// An action that changed the run before the cycle with this number.
     struct Action {
@@ -85,7 +84,7 @@ class History {
     std::uint64_t first() const { return checkpoints_.begin()->first; }
     std::uint64_t last() const { return last_; }
     std::size_t bytes() const { return bytes_; }
-    std::size_t limit() const { return most_; }
+    std::size_t limit() const { return max_bytes_; }
     std::uint64_t interval() const { return interval_; }
     const std::vector<Action>& actions() const { return actions_; }
     std::vector<std::uint64_t> cycles() const {
@@ -95,6 +94,8 @@ class History {
     }
 
   private:
+    /// A browser's tab, whose addresses have 32 bits, has less memory.
+    static constexpr std::size_t usual_bytes = (sizeof(void*) < 8 ? 64u : 256u) << 20;
     static constexpr std::uint64_t first_interval = 250;  ///< cycles: 10 s of the usual systems
 
     void keep(Run& run) {
@@ -105,7 +106,7 @@ class History {
         run.checkpoint(archive);
         bytes_ += archive.bytes().size();
         checkpoints_[run.cycle()] = archive.bytes();
-        while (bytes_ > most_ && checkpoints_.size() > 2) thin();
+        while (bytes_ > max_bytes_ && checkpoints_.size() > 2) thin();
         const auto end = Clock::now();
         rested_ = end + 100 * (end - begun);
     }
@@ -127,7 +128,7 @@ class History {
 
     std::map<std::uint64_t, std::string> checkpoints_;
     std::vector<Action> actions_;
-    std::size_t next_action_ = 0, most_, bytes_ = 0;
+    std::size_t next_action_ = 0, max_bytes_, bytes_ = 0;
     std::uint64_t interval_ = first_interval, last_ = 0;
     std::chrono::steady_clock::time_point rested_{};  ///< when the next checkpoint may be made
 };
