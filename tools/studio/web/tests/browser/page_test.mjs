@@ -150,7 +150,7 @@ export default async function({ start, open, faults, step }) {
   await trials.getByText(/^\d of 4 reached the target/).waitFor();
   await page.getByRole('group', { name: 'Run' }).getByRole('button', { name: 'Run', exact: true }).waitFor();
   await find(page, 'Log');
-  await page.getByText("--trials 1000 --until 'trial 5'").first().waitFor();
+  await page.getByText("--trials 1003 --until 'trial 5'").first().waitFor();
 
   step('an example is chosen by its sentence, and opens in its world');
   await find(page, 'Open an example');
