@@ -161,6 +161,8 @@ void copy_rows(const std::string& from, const RowFileHeader& header, std::uint64
 
 }  // namespace
 
+bool has_hdf5() { return true; }
+
 std::unique_ptr<RowFile> open_hdf5_file(const std::string& path, const RowFileHeader& header,
                                         const std::optional<RowFilePosition>& go_on) {
     if (!go_on) return std::make_unique<Hdf5File>(path, header);

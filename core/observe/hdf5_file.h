@@ -5,6 +5,9 @@
 
 namespace forage::observe {
 
+/// Whether this build of Forage reads and writes HDF5.
+bool has_hdf5();
+
 /// An HDF5 file with one data set of 64-bit floats per source, `/Process/Group/state` of the shape cycles x
 /// rows x columns (cycles alone for a mean), with the attributes `name`, `label`, `group_id`, `unit`,
 /// `first_column` and `first_row`; and `/cycle`, the cycle of each row, as a dimension scale. The root has

@@ -13,6 +13,8 @@ constexpr const char* refusal = "this build of Forage has no HDF5";
 
 }  // namespace
 
+bool has_hdf5() { return false; }
+
 std::unique_ptr<RowFile> open_hdf5_file(const std::string&, const RowFileHeader&,
                                         const std::optional<RowFilePosition>&) {
     throw std::runtime_error(refusal);

@@ -12,6 +12,7 @@
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
 #include "core/model/refused.h"
+#include "core/observe/hdf5_file.h"
 #include "tools/api/describe/describe_json.h"
 #include "tools/api/edit/json_text.h"
 #include "tools/api/open/sources.h"
@@ -137,13 +138,14 @@ void Session::rewound() {
 
 void Session::connect(int client) {
     pages.clients[client];
+    json capabilities = json::array();
+    if (quit) capabilities.push_back("quit");
+    if (observe::has_hdf5()) capabilities.push_back("hdf5");
     const auto send = [&](const json& message) { pages.send(client, false, Pages::text(message)); };
     send({{"type", "hello"},
           {"protocol", 1},
           {"version", FORAGE_VERSION},
-          {"capabilities",
-           {"run", "streams", "parameters", "manipulations", "sampler", "move", "history", "layouts",
-            "panels", "pictures", "recovery", "compare", "edit"}},
+          {"capabilities", capabilities},
           {"layout", pages.layout},
           {"panels", pages.panels}});
     send(system_message());

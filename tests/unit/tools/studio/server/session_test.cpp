@@ -63,6 +63,18 @@ std::uint32_t number_at(const std::string& frame, std::size_t at) {
 
 }  // namespace
 
+TEST_CASE("a page knows whether it can end the program") {
+    Fixture f;
+    f.session.connect(1);
+    f.session.quit = [] {};
+    f.session.connect(2);
+    const auto can_quit = [&](int client) {
+        return std::ranges::count(f.messages[client].front()["capabilities"], json("quit"));
+    };
+    CHECK(can_quit(1) == 0);
+    CHECK(can_quit(2) == 1);
+}
+
 TEST_CASE("a page has a credit of two frames, and acknowledges all up to a number") {
     Fixture f;
     f.session.connect(1);

@@ -4,6 +4,7 @@ import { inBrowser } from '../browser/socket';
 import { dialogs } from '../parts/dialogs.svelte';
 import { dock } from '../stores/dock.svelte';
 import { model } from '../stores/model.svelte';
+import { run } from '../stores/run.svelte';
 import { selection } from '../stores/selection.svelte';
 import { openText } from '../xml/place.svelte';
 import { editing } from './document.svelte';
@@ -50,6 +51,6 @@ export function systemMenu(): Entries {
     null,
     { label: 'Settings…', act: () => (dialogs.shown = 'settings') },
     { label: 'About Forage', act: () => (dialogs.shown = 'about') },
-    ...(inBrowser ? [] : [{ label: 'Quit…', act: quit }]),
+    ...(run.can('quit') ? [{ label: 'Quit…', act: quit }] : []),
   ];
 }

@@ -173,7 +173,7 @@ export interface StatusMessage {
 /** The first message: the token with which this page connects again. */
 export type WelcomeMessage = { type: 'welcome'; token: string };
 
-export type HelloMessage = { type: 'hello'; protocol: number; version: string; capabilities: string[]; layout?: LayoutContent | null; panels?: LayoutContent | null };
+export type HelloMessage = { type: 'hello'; protocol: number; version: string; capabilities: ('quit' | 'hdf5')[]; layout?: LayoutContent | null; panels?: LayoutContent | null };
 
 /** A layout file: the panels' arrangement, or the plots of a file of the original, with what could not be read of it. */
 export type LayoutContent = { dock?: unknown; plots?: { kind: string; item?: string; sources?: string[]; [setting: string]: unknown }[]; problems?: Problem[] };

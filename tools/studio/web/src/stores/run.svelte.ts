@@ -14,6 +14,11 @@ class RunState {
   superseded = $state(0);
   /** Cycles between the run and what the page shows. */
   lag = $state(0);
+
+  /** Whether the server can do what another may not. */
+  can(capability: HelloMessage['capabilities'][number]): boolean {
+    return this.hello?.capabilities.includes(capability) ?? false;
+  }
 }
 
 export const run = new RunState();
