@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstring>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -43,6 +44,10 @@ class Archive {
 
     /// An archive that writes.
     explicit Archive(Nan nan = Nan::as_it_is) : same_nan_(nan == Nan::all_the_same) {}
+    /// Takes bytes in the order in which they are written.
+    using Sink = std::function<void(std::string_view)>;
+    /// An archive that writes into `sink`, and keeps nothing.
+    explicit Archive(Sink sink) : sink_(std::move(sink)) {}
     /// An archive that reads `bytes`, which must outlive it.
     explicit Archive(std::string_view bytes) : left_(bytes), loading_(true) {}
 
@@ -65,7 +70,9 @@ class Archive {
             std::memcpy(static_cast<void*>(first), take(count, sizeof(T)), count * sizeof(T));
             return;
         }
-        bytes_.append(reinterpret_cast<const char*>(first), count * sizeof(T));
+        const std::string_view written(reinterpret_cast<const char*>(first), count * sizeof(T));
+        if (sink_) return sink_(written);
+        bytes_ += written;
         if constexpr (std::is_floating_point_v<T>)
             if (same_nan_) write_same_nan(first, count);
     }
@@ -203,6 +210,7 @@ class Archive {
     }
 
     std::string bytes_;
+    Sink sink_;
     std::string_view left_;
     bool loading_ = false, same_nan_ = false;
 };

@@ -147,6 +147,17 @@ TEST_CASE("Values of every kind are read back as they were written") {
     CHECK(again.bytes() == out.bytes());
 }
 
+TEST_CASE("An archive passes on to a sink what it would keep") {
+    All all = filled();
+    Archive out;
+    out(all);
+    std::string passed;
+    Archive passing([&](std::string_view bytes) { passed += bytes; });
+    passing(all);
+    CHECK(passed == out.bytes());
+    CHECK(passing.bytes().empty());
+}
+
 TEST_CASE("On request every NaN is written in the same way, and nothing else changes") {
     const double nan = std::numeric_limits<double>::quiet_NaN(),
                  infinity = std::numeric_limits<double>::infinity();
