@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/run/run.h"
+#include "tools/studio/server/checkpoints.h"
 
 namespace forage::studio {
 
@@ -34,7 +35,7 @@ class History {
     /// Forgets everything and notes the state of a run that begins.
     void begin(Run& run) {
         checkpoints_.clear(), actions_.clear();
-        bytes_ = 0, next_action_ = 0, interval_ = first_interval, last_ = run.cycle(), rested_ = {};
+        next_action_ = 0, interval_ = first_interval, last_ = run.cycle(), rested_ = {};
         keep(run);
     }
     /// Called after each cycle.
@@ -56,8 +57,9 @@ class History {
     }
     /// Restores the last checkpoint at or before `cycle`.
     void restore(Run& run, std::uint64_t cycle) {
-        const auto& [at, bytes] = *std::prev(checkpoints_.upper_bound(cycle));
-        Archive archive(bytes);
+        const std::uint64_t at = checkpoints_.last(cycle);
+        const std::string bytes = checkpoints_.read(at);
+        Archive archive{std::string_view(bytes)};
         run.checkpoint(archive);
         next_action_ = 0;
         while (next_action_ < actions_.size() && actions_[next_action_].cycle < at) ++next_action_;
@@ -65,33 +67,37 @@ class History {
     /// Writes what is needed to come to `now` again in another program: the first checkpoint, the last one
     /// before `now`, and all actions.
     void save(Archive& archive, std::uint64_t now) {
-        std::map<std::uint64_t, std::string> kept = {*checkpoints_.begin(),
-                                                     *std::prev(checkpoints_.upper_bound(now))};
-        archive(kept, actions_, last_);
+        std::vector kept = {checkpoints_.first()};
+        if (checkpoints_.last(now) != kept.front()) kept.push_back(checkpoints_.last(now));
+        std::uint64_t count = kept.size();
+        archive(count);  // of a map, whose strings are not in memory together
+        for (std::uint64_t cycle : kept) {
+            std::string bytes = checkpoints_.read(cycle);
+            archive(cycle, bytes);
+        }
+        archive(actions_, last_);
     }
     /// Reads what save() wrote. restore() must follow.
     void load(Archive& archive) {
-        archive(checkpoints_, actions_, last_);
-        bytes_ = 0, interval_ = first_interval;
-        for (const auto& [cycle, bytes] : checkpoints_) bytes_ += bytes.size();
-        if (checkpoints_.empty()) throw ArchiveError("the past of the run has no beginning");
+        std::map<std::uint64_t, std::string> kept;
+        archive(kept, actions_, last_);
+        if (kept.empty()) throw ArchiveError("the past of the run has no beginning");
+        checkpoints_.clear(), interval_ = first_interval;
+        for (auto& [cycle, bytes] : kept)
+            checkpoints_.add(cycle, [&](Archive& out) { out.numbers(bytes.data(), bytes.size()); });
     }
     /// Whether continuing from `now` to `cycle` is shorter than from a checkpoint.
     bool ahead(std::uint64_t now, std::uint64_t cycle) const {
-        return now <= cycle && std::prev(checkpoints_.upper_bound(cycle))->first <= now;
+        return now <= cycle && checkpoints_.last(cycle) <= now;
     }
 
-    std::uint64_t first() const { return checkpoints_.begin()->first; }
+    std::uint64_t first() const { return checkpoints_.first(); }
     std::uint64_t last() const { return last_; }
-    std::size_t bytes() const { return bytes_; }
+    std::size_t bytes() const { return checkpoints_.bytes(); }
     std::size_t limit() const { return max_bytes_; }
     std::uint64_t interval() const { return interval_; }
     const std::vector<Action>& actions() const { return actions_; }
-    std::vector<std::uint64_t> cycles() const {
-        std::vector<std::uint64_t> out;
-        for (const auto& [cycle, bytes] : checkpoints_) out.push_back(cycle);
-        return out;
-    }
+    std::vector<std::uint64_t> cycles() const { return checkpoints_.cycles(); }
 
   private:
     /// A browser's tab, whose addresses have 32 bits, has less memory.
@@ -102,33 +108,21 @@ class History {
         using Clock = std::chrono::steady_clock;
         const auto begun = Clock::now();
         if (begun < rested_ && run.cycle() > 0) return;
-        Archive archive;
-        run.checkpoint(archive);
-        bytes_ += archive.bytes().size();
-        checkpoints_[run.cycle()] = archive.bytes();
-        while (bytes_ > max_bytes_ && checkpoints_.size() > 2) thin();
+        checkpoints_.add(run.cycle(), [&](Archive& archive) { run.checkpoint(archive); });
+        while (checkpoints_.bytes() > max_bytes_ && checkpoints_.size() > 2)
+            checkpoints_.thin(), interval_ *= 2;
         const auto end = Clock::now();
         rested_ = end + 100 * (end - begun);
     }
-    void thin() {
-        interval_ *= 2;
-        bool drop = false;
-        for (auto it = checkpoints_.begin(); it != checkpoints_.end(); drop = !drop)
-            if (drop && std::next(it) != checkpoints_.end())
-                bytes_ -= it->second.size(), it = checkpoints_.erase(it);
-            else
-                ++it;
-    }
     void cut(std::uint64_t cycle) {
         actions_.resize(std::min(next_action_, actions_.size()));
-        for (auto it = checkpoints_.upper_bound(cycle); it != checkpoints_.end();)
-            bytes_ -= it->second.size(), it = checkpoints_.erase(it);
+        checkpoints_.cut(cycle);
         last_ = std::min(last_, cycle);
     }
 
-    std::map<std::uint64_t, std::string> checkpoints_;
+    Checkpoints checkpoints_;
     std::vector<Action> actions_;
-    std::size_t next_action_ = 0, max_bytes_, bytes_ = 0;
+    std::size_t next_action_ = 0, max_bytes_;
     std::uint64_t interval_ = first_interval, last_ = 0;
     std::chrono::steady_clock::time_point rested_{};  ///< when the next checkpoint may be made
 };
