@@ -31,7 +31,9 @@ std::string sealed(std::string_view content) {
     std::uint64_t length = content.size();
     std::string sum = digest(content);
     head(number, length, sum);
-    return fmt::format("{}{}{}", magic, head.bytes(), content);
+    std::string out;
+    out.reserve(magic.size() + head.bytes().size() + content.size());
+    return out.append(magic).append(head.bytes()).append(content);
 }
 
 std::string unsealed(std::string_view text, std::string_view name) {

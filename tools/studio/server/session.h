@@ -32,6 +32,7 @@ struct RecoveryState {
     std::string failed;                    ///< why the session cannot be saved
     std::optional<std::uint64_t> version;  ///< of the run when it was saved
     double saved_at = -1e9;
+    std::size_t length = 0;  ///< bytes that were saved last; the next ones are about as many
     Settings settings = read_settings();
 };
 

@@ -94,7 +94,9 @@ void Session::look_for_killed() {
 
 void Session::save() {
     try {
-        Archive archive;
+        std::string content;
+        content.reserve(recovery.length + recovery.length / 16);
+        Archive archive([&](std::string_view bytes) { content += bytes; });
         Head head;
         head.files = live.files, head.cycle = live.run->cycle(), head.seconds = live.run->seconds();
         head.saved = std::chrono::duration_cast<std::chrono::seconds>(
@@ -119,7 +121,8 @@ void Session::save() {
         if (waits) archive_input(archive, wanted);
         live.history.save(archive, live.run->cycle());
         if (live.reference) live.reference->past.save(archive, live.run->cycle());
-        recovery.files->write(archive.bytes());
+        recovery.files->write(content);
+        recovery.length = content.size();
         recovery.failed.clear();
     } catch (const std::exception& e) {
         recovery.failed = fmt::format("the session cannot be kept for the case of a crash: {}", e.what());
