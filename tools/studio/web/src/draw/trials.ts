@@ -9,7 +9,11 @@ const startText = ([x, y, yaw]: Trial['start']): string => `${inSteps(x, 0.1).to
 /** The trials by their start poses, in the order in which these came first; more than `most` different ones are one row. */
 export function byStart(trials: Trial[], most = 12): { start: string; trials: Trial[] }[] {
   const rows = new Map<string, Trial[]>();
-  for (const t of trials) rows.set(startText(t.start), [...(rows.get(startText(t.start)) ?? []), t]);
+  for (const t of trials) {
+    const start = startText(t.start), row = rows.get(start);
+    if (row) row.push(t);
+    else rows.set(start, [t]);
+  }
   if (rows.size > most) return [{ start: 'all starts', trials }];
   return [...rows].map(([start, some]) => ({ start, trials: some }));
 }
