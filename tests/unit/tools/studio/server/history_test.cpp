@@ -22,8 +22,8 @@ RunInput input() {
 }  // namespace
 
 TEST_CASE("the past of a long run stays within its memory, and is what was") {
-    const Session::Send nobody = [](int, bool, const std::string&) {};
-    Session session(input(), nobody), again(input(), nobody);
+    const Session::Send no_page = [](int, bool, const std::string&) {};
+    Session session(input(), no_page), again(input(), no_page);
     History first;
     first.begin(session.run());
     const std::size_t limit = 3 * first.bytes();
