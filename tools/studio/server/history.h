@@ -83,8 +83,9 @@ class History {
         archive(kept, actions_, last_);
         if (kept.empty()) throw ArchiveError("the past of the run has no beginning");
         checkpoints_.clear(), interval_ = first_interval;
-        for (auto& [cycle, bytes] : kept)
-            checkpoints_.add(cycle, [&](Archive& out) { out.numbers(bytes.data(), bytes.size()); });
+        for (auto& one : kept)  // a lambda of clang 14 captures no structured binding
+            checkpoints_.add(one.first,
+                             [&](Archive& out) { out.numbers(one.second.data(), one.second.size()); });
     }
     /// Whether continuing from `now` to `cycle` is shorter than from a checkpoint.
     bool ahead(std::uint64_t now, std::uint64_t cycle) const {
