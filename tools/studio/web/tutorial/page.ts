@@ -1,7 +1,7 @@
 // Makes a page of the panel Tutorial from a file of docs/tutorial. Runs in the build; the page of the studio gets the HTML.
 import { Marked } from 'marked';
 import { formulas, greek } from './formula';
-import { readCheck } from '../src/tutorial/checks';
+import { readAsk, readCheck, type Check } from '../src/tutorial/checks';
 import type { Setup } from '../src/tutorial/setup';
 
 export interface TutorialPage {
@@ -56,7 +56,29 @@ export function readSetup(text: string): Setup {
   return setup;
 }
 
-function setupHtml(setup: Setup, number: number): string {
+const setupComment = /^<!-- studio\n/gm;
+/** A question in the text, with the comment in front that says its answer, and the list of what one chooses from. */
+const question = /^<!-- ask: (.+) -->\n(.+(?:\n.+)*)\n(?:\n((?:- .+\n)+))?/gm;
+/** A question with its field: a number, or one of `options`. */
+function askHtml(text: string, options: string[], name: string): string {
+  const fields = options.map((o, i) => `<label><input type="radio" name="${name}" value="${i + 1}"><span>${inline(o)}</span></label>`);
+  return `<fieldset class="ask"><legend>${inline(text)}</legend>${fields.join('') || '<label>Your number <input type="number" step="any"></label>'}</fieldset>`;
+}
+/** Takes the questions out of the text. Returns those of each set-up, which stand behind it. */
+function takeQuestions(markdown: string): { text: string; questions: { check: Check; html: string }[][] } {
+  const questions = [...markdown.matchAll(setupComment)].map(() => [] as { check: Check; html: string }[]);
+  const text = markdown.replace(question, (_, ask: string, words: string, list: string | undefined, offset: number) => {
+    const check = readAsk(ask), options = list?.trim().split('\n').map((o) => o.slice(2)) ?? [];
+    const of = questions[[...markdown.slice(0, offset).matchAll(setupComment)].length - 1];
+    if (!of) throw new Error(`'${ask}' stands behind no set-up`);
+    if (check.asked && ('choice' in check.asked ? check.asked.choice > options.length : options.length > 0)) throw new Error(`'${ask}' does not fit the list behind it`);
+    of.push({ check, html: askHtml(words.replaceAll('\n', ' '), options, `ask-${questions.indexOf(of)}-${of.length}`) });
+    return '';
+  });
+  return { text, questions };
+}
+
+function setupHtml(setup: Setup, number: number, questions: string): string {
   const choices = setup.choices.map(
     (c) =>
       `<div class="choices" role="group" aria-label="${escape(c.assignment)}"><span>${escape(c.assignment)}</span> ${
@@ -65,7 +87,7 @@ function setupHtml(setup: Setup, number: number): string {
   );
   return `<section class="setup" data-setup="${number}" aria-label="Set-up ${number + 1}"><button type="button" class="primary" data-open="${number}">Set it up</button><small>${escape(setup.system)} in ${escape(setup.world)}</small><p>${
     inline(setup.say)
-  }</p>${choices.join('')}${setup.checks.length ? checksHtml : ''}</section>\n`;
+  }</p>${choices.join('')}${questions}${setup.checks.length ? checksHtml : ''}</section>\n`;
 }
 const checksHtml = '<div class="checks"><button type="button" class="outlined" data-check disabled>Check what I have seen</button><div role="status"><ul></ul></div></div>';
 const inline = (text: string) => new Marked({ renderer: { html: ({ text }) => escape(text) } }).parseInline(text) as string;
@@ -73,6 +95,7 @@ const inline = (text: string) => new Marked({ renderer: { html: ({ text }) => es
 /** `id` is the name of the file without `.md`, `ids` those of all pages. Throws when the text has HTML that is not known here. */
 export function makePage(id: string, markdown: string, ids: string[]): TutorialPage {
   const page: TutorialPage = { id, title: '', html: '', setups: [], pictures: [] };
+  const { text: body, questions } = takeQuestions(markdown);
   let folded = 0;
   // Formulas have letters where parameters have names: the first mention of a name says which.
   const named = new Set<string>();
@@ -88,8 +111,10 @@ export function makePage(id: string, markdown: string, ids: string[]): TutorialP
         const setup = /^<!-- studio\n([\s\S]*)-->$/.exec(html);
         if (setup) {
           if (folded) throw new Error(`${id}: a set-up stands outside of what is folded`);
-          page.setups.push(readSetup(setup[1]!));
-          return setupHtml(page.setups[page.setups.length - 1]!, page.setups.length - 1);
+          const number = page.setups.length, read = readSetup(setup[1]!), asked = questions[number]!;
+          read.checks.unshift(...asked.map((q) => q.check));
+          page.setups.push(read);
+          return setupHtml(read, number, asked.map((q) => q.html).join(''));
         }
         if (/^<!--[\s\S]*-->$/.test(html)) return '';
         if (!/^(<details>|<\/details>|<summary>[^<]*<\/summary>|\s)+$/.test(html)) throw new Error(`${id}: the HTML '${html}' is not shown in the studio`);
@@ -122,7 +147,7 @@ export function makePage(id: string, markdown: string, ids: string[]): TutorialP
       },
     },
   });
-  const html = marked.parse(markdown) as string;
+  const html = marked.parse(body) as string;
   page.html = html.replace(/<table>/g, '<div class="table" tabindex="0"><table>').replace(/<\/table>/g, '</table></div>');
   return page;
 }

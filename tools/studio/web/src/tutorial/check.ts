@@ -1,23 +1,54 @@
-// The button of an exercise that says in words whether what was seen is right.
+// The button of an exercise that says in words whether what was seen and answered is right.
 import { sinceLastChange } from '../draw/trials';
 import { actions } from '../stores/actions.svelte';
 import { run } from '../stores/run.svelte';
 import { request } from '../studio';
-import { findHits, findSeen, untried, type Check, type Finding } from './checks';
+import { findChoice, findCount, findHits, findLasting, findNumber, findSeen, untried, type Check, type Finding } from './checks';
 import { areInForce } from './choices';
 
-async function find(check: Check, before: Finding | undefined): Promise<Finding> {
+const holds = async (condition: string) => (await request('holds', { condition })).holds;
+
+/** What the field of a question holds: a number, or the text and the number of a choice. */
+interface Answer {
+  text: string;
+  number: number;
+}
+function answerIn(field: HTMLElement): Answer | undefined {
+  const input = field.querySelector<HTMLInputElement>('input[type=number], input:checked');
+  if (!input?.value) return undefined;
+  return { number: Number(input.value), text: input.type === 'radio' ? input.parentElement!.innerText.trim().replace(/\.$/, '') : input.value };
+}
+
+async function find(check: Check, before: Finding | undefined, field: HTMLElement | undefined, looked: boolean): Promise<Finding> {
+  const { asked } = check, answer = field && answerIn(field);
+  if (field && !answer) return { right: null, text: `Not answered yet: ${field.querySelector('legend')!.innerText}` };
   // What was found with other values stays.
-  if (!(await areInForce(check.given))) return before ?? untried(check);
-  if (check.seen) return findSeen(check, (await request('holds', { condition: check.seen.condition })).holds);
+  if (!(await areInForce(check.given))) return before?.looked ? before : untried(check);
+  if (check.seen) return findSeen(check, await holds(check.seen.condition));
+  if (asked && 'choice' in asked) return findChoice(check, answer!.text, answer!.number === asked.choice, looked);
+  if (asked && 'quantity' in asked) {
+    const { quantity, within, when } = asked, said = answer!.number;
+    if (!(await holds(when))) return before?.looked ? before : { right: null, text: `You said ${said}. Now look whether it is so, then check again.` };
+    return findNumber(check, said, await holds(`${quantity} >= ${said - within} and ${quantity} <= ${said + within}`));
+  }
   const { trials } = await request('trials', {});
-  return findHits(check, sinceLastChange(trials, actions.log, run.status?.epoch).trials.map((t) => t.reached_target));
+  const { change, trials: since } = sinceLastChange(trials, actions.log, run.status?.epoch), reached = since.map((t) => t.reached_target);
+  if (check.lasts) return findLasting(check, (run.status?.seconds ?? 0) * (1 - (change?.cycle ?? 0) / (run.status?.cycle || 1)));
+  return asked && 'count' in asked ? findCount({ ...check, asked }, answer!.number, reached) : findHits(check, reached);
 }
 
 /** Shows the findings below the button, and returns them. `before` are those of the last time. */
 export async function showFindings(button: HTMLElement, checks: Check[], before: Finding[]): Promise<Finding[]> {
+  // Questions come first.
+  const fields = button.closest('.setup')!.querySelectorAll<HTMLElement>('.ask');
   const found: Finding[] = [];
-  for (const [i, check] of checks.entries()) found.push(await find(check, before[i]));
+  // Choices come last: they are predictions, which all else confirms.
+  const choice = (check: Check) => Number(check.asked !== undefined && 'choice' in check.asked);
+  for (const i of [...checks.keys()].sort((a, b) => choice(checks[a]!) - choice(checks[b]!))) {
+    const check = checks[i]!, others = found.filter((_, other) => !choice(checks[other]!));
+    const now = await find(check, before[i], fields[i], others.every((f) => f.looked));
+    found[i] = { ...now, looked: before[i]?.looked || now.right !== null };
+  }
   const list = button.parentElement!.querySelector('ul')!;
   list.replaceChildren(...found.map(({ right, text }) => {
     const line = document.createElement('li');

@@ -104,6 +104,10 @@ export default async function({ site, folder, start, open, faults, step }) {
   assert.equal(await reflex.getByRole('listitem').count(), 0);
   await reflex.getByRole('button', { name: 'Check what I have seen' }).click();
   await reflex.getByText('0 of 30 trials have finished. Run the others, then check again.').waitFor();
+  await reflex.getByText('Not answered yet: Predict, then look:').waitFor();
+  await reflex.getByLabel('From all three starts.').check();
+  await reflex.getByRole('button', { name: 'Check what I have seen' }).click();
+  await reflex.getByText('You said “From all three starts”. Now look whether it is so, then check again.').waitFor();
   await page.getByRole('button', { name: 'Max', exact: true }).click();
   await page.getByRole('group', { name: 'Trials' }).getByRole('button', { name: 'Run', exact: true }).click();
   await page.getByText('14 of 30 reached the target').waitFor();
@@ -113,9 +117,27 @@ export default async function({ site, folder, start, open, faults, step }) {
   await check.click();
   const answer = reflex.getByText('You have seen 16 misses in 30 trials (53 %): right, the text expects 30 % to 80 %.');
   await answer.waitFor();
+  await reflex.getByText('You said “From all three starts”, and it is not so. Look again: the boxes of Trials, by start.').waitFor();
+  await reflex.getByLabel('Mostly from the middle.').check();
+  await check.click();
+  await reflex.getByText('You said “Mostly from the middle”: right.').waitFor();
   const line = await answer.boundingBox(), around = await tutorial.boundingBox();
   assert.ok(line.y + line.height < around.y + around.height + 1, 'the answer is in sight');
   await picture(page, 'tutorial-checked');
+
+  step('an answer is compared with the trials of the run; a wrong one learns where to look');
+  await tutorial.getByRole('button', { name: '3', exact: true }).click();
+  const rates = tutorial.locator('[data-setup="0"]'), number = rates.getByLabel('Your number');
+  await rates.getByRole('button', { name: 'Set it up' }).click();
+  await rates.getByRole('button', { name: 'Adaptive.eta = 0.02' }).and(page.locator('[aria-pressed="true"]')).waitFor();
+  await page.getByRole('button', { name: 'Max', exact: true }).click();
+  await page.getByRole('group', { name: 'Trials' }).getByRole('button', { name: 'Run', exact: true }).click();
+  await page.getByText('10 of 12 reached the target').waitFor();
+  for (const [said, found] of [['3', 'you said 3, and it is not so. Look again: Trials, where a pale box is a miss.'], ['2', 'you said 2, it was 2 misses in 12 trials: right.']]) {
+    await number.fill(said);
+    await rates.getByRole('button', { name: 'Check what I have seen' }).click();
+    await rates.getByText(`With Adaptive.eta = 0.02: ${found}`).waitFor();
+  }
 
   step('in narrow windows all that it names is seen: the trials, and plots that can be read');
   await tutorial.getByRole('button', { name: '5', exact: true }).click();

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { findHits, findSeen, readCheck, untried } from '../../src/tutorial/checks';
+import { findChoice, findCount, findHits, findLasting, findSeen, readAsk, readCheck, untried } from '../../src/tutorial/checks';
 import { sinceLastChange, type Done } from '../../src/draw/trials';
 import type { Trial } from '../../src/protocol/messages';
 
@@ -33,6 +33,36 @@ describe('a check', () => {
     const check = readCheck('a region stands out when max(A/B) > 0.1');
     expect(findSeen(check, true)).toEqual({ right: true, text: 'Right, a region stands out.' });
     expect(findSeen(check, false)).toEqual({ right: null, text: 'Not yet that a region stands out.' });
+  });
+  it('says whether the run has lasted since the last change', () => {
+    const check = readCheck('600 s with P.x = 1');
+    expect(check).toEqual({ given: ['P.x=1'], lasts: 600 });
+    expect(findLasting(check, 599.9)).toEqual({ right: null, text: 'With P.x = 1: 599 of 600 s have passed. Run the others, then check again.' });
+    expect(findLasting(check, 600)).toMatchObject({ right: true });
+  });
+});
+
+describe('a question', () => {
+  it('is for a number of trials, a quantity, or a choice, and says where to look', () => {
+    expect(readAsk('misses of the last 5 of 12 trials with P.x = 1; the boxes')).toEqual({ given: ['P.x=1'], asked: { count: { what: 'misses', last: 5, trials: 12 }, look: 'the boxes' } });
+    expect(readAsk('cycle within 20 when mean(P/G) < 0.1; the line below')).toEqual({ given: [], asked: { quantity: 'cycle', within: 20, when: 'mean(P/G) < 0.1', look: 'the line below' } });
+    expect(readAsk('choice 2; the plot')).toEqual({ given: [], asked: { choice: 2, look: 'the plot' } });
+  });
+  it.each([['choice 2', 'where to look'], ['choice 0; x', 'neither'], ['cycle when cycle 3; x', 'neither'], ['hits of the last 9 of 5 trials; x', 'no trials']])(
+    'is refused: %j',
+    (text, message) => expect(() => readAsk(text)).toThrow(message),
+  );
+  it('is answered in words: a wrong answer learns where to look, not what is right', () => {
+    const check = readAsk('misses of 12 trials; the boxes'), count = check.asked && 'count' in check.asked ? { ...check, asked: check.asked } : undefined;
+    expect(findCount(count!, 2, run('-+++'))).toEqual({ right: null, text: 'You said 2. 4 of 12 trials have finished. Run the others, then check again.' });
+    expect(findCount(count!, 2, run('-++++-++++++'))).toEqual({ right: true, text: 'You said 2, it was 2 misses in 12 trials: right.' });
+    expect(findCount(count!, 3, run('-++++-++++++'))).toEqual({ right: false, text: 'You said 3, and it is not so. Look again: the boxes.' });
+  });
+  it('that is a prediction is judged when the rest was looked at', () => {
+    const check = readAsk('choice 2; the plot');
+    expect(findChoice(check, 'later', true, false)).toEqual({ right: null, text: 'You said “later”. Now look whether it is so, then check again.' });
+    expect(findChoice(check, 'later', true, true).right).toBe(true);
+    expect(findChoice(check, 'later', false, true).text).toBe('You said “later”, and it is not so. Look again: the plot.');
   });
 });
 

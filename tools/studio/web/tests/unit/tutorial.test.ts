@@ -90,6 +90,20 @@ describe('pages of the tutorial', () => {
     expect(made.setups[0]).toMatchObject({ large: 'arena', panels: [{ kind: 'space' }, { kind: 'trials', item: '600', key: 'seconds' }], checks: [{ hits: { trials: 9 } }] });
     expect(made.html).toContain('data-check disabled>Check what I have seen</button>');
   });
+  const withQuestion = (ask: string, list = '- one\n- *two*\n') => page(`<!-- studio\nsystem: a\nworld: b\nspace: P/G\ncheck: 60 s\n-->\n\n<!-- ask: ${ask} -->\nWhich of\nthem?\n\n${list}\nText.\n`);
+  it('take the questions behind a set-up into it, in front of its other checks', () => {
+    const made = withQuestion('choice 2; the plot');
+    expect(made.setups[0]!.checks).toEqual([{ given: [], asked: { choice: 2, look: 'the plot' } }, { given: [], lasts: 60 }]);
+    expect(made.html).toContain('<legend>Which of them?</legend><label><input type="radio" name="ask-0-0" value="1"><span>one</span></label>');
+    expect(made.html.indexOf('</fieldset>')).toBeLessThan(made.html.indexOf('</section>'));
+    expect(made.html).toMatch(/<p>Text\.<\/p>\s*$/);
+    expect(withQuestion('hits of 5 trials; the boxes', '').html).toContain('<input type="number"');
+  });
+  it('refuse a question without its list, or without a set-up', () => {
+    expect(() => withQuestion('choice 3; the plot')).toThrow('does not fit the list');
+    expect(() => withQuestion('hits of 5 trials; the boxes')).toThrow('does not fit the list');
+    expect(() => page('<!-- ask: choice 1; x -->\nWhich?\n\n- one\n')).toThrow('no set-up');
+  });
   it('refuse a set-up that would be folded away', () => expect(() => page('<details><summary>S</summary>\n\n<!-- studio\nsystem: a\nworld: b\nspace: P/G\n-->\n\n</details>')).toThrow('outside'));
 });
 
