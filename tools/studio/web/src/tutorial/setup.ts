@@ -53,13 +53,16 @@ export function clampPattern(clamp: string, size: (group: string) => { width: nu
   return { group, pattern };
 }
 
-function panelOf({ kind, item, scale, key }: PanelSetup, window: number): PanelState {
+function panelOf({ kind, item, scale, key }: PanelSetup, { window, checks }: Setup): PanelState {
   if (kind === 'time') return { kind, window, sources: item.split(', ').map((s) => (model.group(s) ? `mean(${s})` : s)) };
   if (kind === 'space' && scale) return { kind, item, scale: { mode: 'manual', low: scale[0], high: scale[1] } };
   // Cells are between 0 and 1, mostly: a scale that followed smaller values would show noise as an answer.
   if (kind === 'space') return { kind, item, scale: { mode: 'expand', low: 0, high: 1 } };
   // A condition ends the run: there may be any number of trials until then.
-  if (kind === 'trials') return key === 'until' ? { kind, condition: item, count: 100_000 } : { kind, [key === 'seconds' ? 'seconds' : 'count']: Number(item) };
+  if (kind === 'trials') {
+    const last = checks.find(({ hits }) => hits && hits.last < hits.trials)?.hits?.last ?? 50;
+    return key === 'until' ? { kind, condition: item, count: 100_000 } : { kind, last, [key === 'seconds' ? 'seconds' : 'count']: Number(item) };
+  }
   return kind === 'sampler' ? { kind, sources: [item] } : { kind, item };
 }
 
@@ -89,7 +92,7 @@ export async function setUp(setup: Setup): Promise<boolean> {
       clamped.set(group, pattern);
     }
     showProcess(setup.diagram);
-    const plots = setup.panels.map((p) => panelOf(p, setup.window)).map((p) => (p.kind === 'manipulate' ? { ...p, cells: clamped.get(p.item!) } : p));
+    const plots = setup.panels.map((p) => panelOf(p, setup)).map((p) => (p.kind === 'manipulate' ? { ...p, cells: clamped.get(p.item!) } : p));
     arrange(plots, setup.large || plots[0]?.kind);
     return true;
   } finally {
