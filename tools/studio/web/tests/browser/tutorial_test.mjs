@@ -139,6 +139,19 @@ export default async function({ site, folder, start, open, faults, step }) {
     await rates.getByText(`With Adaptive.eta = 0.02: ${found}`).waitFor();
   }
 
+  step('the trials of the run before stay in sight, and the last ones are counted');
+  await page.getByRole('button', { name: 'Stop', exact: true }).click();
+  await page.getByText('Before: 10 of 12').waitFor();
+  await page.getByLabel('Number of trials').fill('60');
+  await page.getByLabel('Number of trials').press('Enter');
+  await page.getByText('of 60 reached the target').waitFor();
+  await page.getByText(/Of the last/).getByText(/of 50 reached the target/).waitFor();
+  await page.getByLabel('Last trials').fill('12');
+  await page.getByLabel('Last trials').press('Enter');
+  await page.getByText(/of 12 reached the target/).waitFor();
+  assert.equal(await page.getByRole('img', { name: /^The run before: hit, miss, / }).count(), 1);
+  await picture(page, 'trials-before');
+
   step('in narrow windows all that it names is seen: the trials, and plots that can be read');
   await tutorial.getByRole('button', { name: '5', exact: true }).click();
   for (const [width, height] of [[1024, 700], [700, 600]]) {
