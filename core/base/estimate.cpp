@@ -1,5 +1,6 @@
 #include "core/base/estimate.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -34,6 +35,15 @@ std::optional<Estimate> estimate(const std::vector<double>& numbers) {
     if (numbers.size() == 1) return Estimate{mean, mean, mean};
     const double half = half_width(squares / (n - 1), numbers.size());
     return Estimate{mean, mean - half, mean + half, numbers.size()};
+}
+
+Estimate share(std::size_t hits, std::size_t count) {
+    constexpr double z = 1.959964;
+    const auto n = static_cast<double>(count);
+    const double p = static_cast<double>(hits) / n, scale = 1 + z * z / n;
+    const double middle = (p + z * z / (2 * n)) / scale,
+                 half = z / scale * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
+    return {p, std::max(middle - half, 0.0), std::min(middle + half, 1.0), count};
 }
 
 }  // namespace forage

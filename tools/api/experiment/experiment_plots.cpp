@@ -25,6 +25,8 @@ constexpr std::size_t max_lines = 10;  ///< that readers can distinguish
 constexpr std::size_t unreadable_lines = 100;
 constexpr std::size_t max_blocks = 25;  ///< of trials, in a picture of learning
 
+constexpr std::size_t running_trials = 20;  ///< of a single run, which are averaged
+
 /// Places of values on an axis, and whether they are logarithms. On a logarithmic axis, 0 is at the left, and
 /// the axis is broken at `gap`.
 struct Places {
@@ -144,6 +146,20 @@ std::unordered_map<std::string, Numbers> numbers_of_trials(const std::string& pa
     return out;
 }
 
+/// The share of targets among the last trials, after each of them.
+plot::LinesPlot::Line running_share(const Numbers& outcomes) {
+    plot::LinesPlot::Line out;
+    std::size_t hits = 0;
+    for (std::size_t t = 0; t < outcomes.size(); ++t) {
+        hits += *outcomes[t] == 1;
+        if (t >= running_trials) hits -= *outcomes[t - running_trials] == 1;
+        auto y = share(hits, std::min(t + 1, running_trials));
+        y.count = 1;  // no runs are missing
+        out.points.push_back({static_cast<double>(t + 1), y});
+    }
+    return out;
+}
+
 }  // namespace
 
 std::vector<std::string> usual_plots(const RunTable& table, const std::string& directory) {
@@ -246,6 +262,12 @@ std::optional<plot::Picture> draw_learning(const PlotSpec& spec, const std::vect
     const std::size_t block = (longest + max_blocks - 1) / max_blocks;
     plot::LinesPlot out{title, {}, "trial", spec.what.empty() ? "share of trials at the target" : spec.what,
                         {},    {}, {}};
+    if (spec.what.empty() && trials.size() == 1 && trials.front().size() == 1) {
+        out.subtitle = fmt::format("{}{}mean of the last {} trials, with its 95 % interval", part,
+                                   part.empty() ? "" : "; ", running_trials);
+        out.lines = {running_share(trials.front().front())};
+        return plot::lines_plot(out);
+    }
     std::vector<std::optional<Estimate>> estimates;
     for (std::size_t s = 0; s < series.size(); ++s) {
         auto& line = out.lines.emplace_back();

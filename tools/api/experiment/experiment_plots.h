@@ -24,9 +24,10 @@ struct RunSeries {
     std::string name;
     std::vector<std::string> directories;
 };
-/// The share of trials that reached the target, or the mean of a column of trials.csv, in blocks of trials.
-/// `table` is the table of the trials of all runs, if there is one; otherwise each run has its own. `part`
-/// says which part of the runs these are. Throws FileError. Reports a column that is not there.
+/// The share of trials that reached the target, or the mean of a column of trials.csv, in blocks of trials;
+/// of a single run, the share among the last 20 trials after each of them. `table` is the table of the trials
+/// of all runs, if there is one; otherwise each run has its own. `part` says which part of the runs these
+/// are. Throws FileError. Reports a column that is not there.
 std::optional<plot::Picture> draw_learning(const plot::PlotSpec& spec, const std::vector<RunSeries>& series,
                                            const std::string& table, const std::string& title,
                                            const std::string& part, Diagnostics& diagnostics);

@@ -32,3 +32,12 @@ TEST_CASE("The width of an interval has the quantiles of Student's t in printed 
         CHECK(half_width(9, n) == Approx(t * 3 / std::sqrt(n)).margin(0.0006 * 3 / std::sqrt(n)));
     }
 }
+
+TEST_CASE("A share has Wilson's interval, within 0 and 1") {
+    const Estimate e = share(15, 17);  // of Wilson's score, by hand
+    CHECK(e.mean == Approx(15. / 17));
+    CHECK(e.low == Approx(0.6566).margin(0.0001));
+    CHECK(e.high == Approx(0.9671).margin(0.0001));
+    CHECK(share(0, 3).low == Approx(0).margin(1e-12));
+    CHECK(share(3, 3).high == Approx(1));
+}
