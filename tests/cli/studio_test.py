@@ -464,8 +464,19 @@ class Watching(unittest.TestCase):
             )
             self.assertEqual(pathlib.Path(file).read_bytes(), pathlib.Path(folder, 'out/run.csv').read_bytes())
 
+    def check_figure(self, form, **wanted):
+        """Compares the content of a figure with the file that the commands beside it make, byte for byte."""
+        with self.subTest(**wanted), tempfile.TemporaryDirectory() as folder:
+            figure = self.page.do('figure', format=form, **wanted)
+            self.assertEqual(figure['note'], '')
+            script = f'set -e\nforage() {{ "{forage}" "$@" > log 2>&1 || {{ cat log; exit 1; }}; }}\n{figure["shell"]}'
+            done = subprocess.run(['bash', '-c', script], cwd=folder, capture_output=True, text=True)
+            self.assertEqual((done.returncode, done.stdout, done.stderr), (0, '', ''), figure['shell'])
+            (file,) = pathlib.Path(folder).rglob(figure['file'])
+            self.assertEqual(base64.b64decode(figure['content']), file.read_bytes())
+            return figure['shell']
+
     def test_figures_are_those_of_the_command_line(self):
-        """The content of a figure, and the file that the commands beside it make, byte for byte."""
         self.page.do('step', cycles=700)
         self.page.do('step', cycles=700)
         figures = (
@@ -480,14 +491,7 @@ class Watching(unittest.TestCase):
         )
         before = self.page.do('digest')
         for wanted, form in figures:
-            with self.subTest(**wanted), tempfile.TemporaryDirectory() as folder:
-                figure = self.page.do('figure', format=form, **wanted)
-                self.assertEqual(figure['note'], '')
-                script = f'set -e\nforage() {{ "{forage}" "$@" > log 2>&1 || {{ cat log; exit 1; }}; }}\n{figure["shell"]}'
-                done = subprocess.run(['bash', '-c', script], cwd=folder, capture_output=True, text=True)
-                self.assertEqual((done.returncode, done.stdout, done.stderr), (0, '', ''), figure['shell'])
-                (file,) = pathlib.Path(folder).rglob(figure['file'])
-                self.assertEqual(base64.b64decode(figure['content']), file.read_bytes())
+            self.check_figure(form, **wanted)
         self.assertEqual(self.page.do('digest'), before)
         for wanted, message in (
             ({'plots': ['time:Bug/None']}, "Bug/None"),
@@ -501,10 +505,22 @@ class Watching(unittest.TestCase):
         self.page.do('begin_trial')
         self.page.do('step', cycles=10)
         self.assertIn('the Log', self.page.do('figure', plots=['time:mean(Bug/Light)'])['note'])
-        self.page.do('set', assignments=['Bug/Light.threshold=0.5'])
-        self.assertIn('Save the system', self.page.do('figure', plots=['time:mean(Bug/Light)'])['note'])
         self.page.do('stop')
         self.assertIn('nothing to draw yet', self.page.ask('figure', plots=['trajectory'])['problems'][0]['message'])
+
+    def test_parameters_that_were_set_are_in_the_commands_of_a_figure(self):
+        self.page.do('set', assignments=['Reactive Layer/Approach.threshold=0.5'])
+        self.page.do('step', cycles=200)
+        self.page.do('stop')
+        self.page.do('set', assignments=['Selection/Explore.excGain=0.9'])
+        self.page.do('step', cycles=700)
+        self.page.do('set', assignments=['Bug/Light.threshold=0.2'])
+        self.page.do('step', cycles=700)
+        for wanted in (['learning'], ['time:Reactive Layer/Approach']):
+            shell = self.check_figure('svg', plots=wanted)
+            for option in ("--set 'Reactive Layer/Approach.threshold=0.5'", "--set 'Selection/Explore.excGain=0.9'", "--schedule 'cycle 700: Bug/Light.threshold=0.2'"):
+                self.assertIn(option, shell)
+        self.assertIn('Save the system', self.page.do('figure', plots=['diagram'])['note'])
 
     def test_the_sampler_appends_and_numbers_its_files(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -9,6 +9,7 @@
 
 #include "core/base/shell_word.h"
 #include "core/base/text_file.h"
+#include "core/model/changes.h"
 #include "core/run/path_recorder.h"
 #include "core/run/recordings.h"
 #include "core/run/trial_recorder.h"
@@ -117,6 +118,28 @@ Results results_of_past(Session& s, const FigureNeeds& needs, const std::string&
     return results_of(folder, std::move(out));
 }
 
+/// What the run began with that its file does not say; empty when this is more than parameters.
+std::optional<std::vector<model::Assignment>> unsaved_parameters(const Session& s) {
+    const auto& run = *s.live.run;
+    return model::parameter_changes(s.edited.document->saved_system(), run.system(), run.registry());
+}
+
+bool sets_parameters(const History::Action& action) { return action.command.at("command") == "set"; }
+
+/// The options for parameters that pages set, before the run began and during it.
+std::string options_of_parameters(Session& s) {
+    std::string out;
+    const auto& settings = s.live.begun.settings;
+    for (const auto& a : unsaved_parameters(s).value_or(std::vector<model::Assignment>()))
+        if (std::ranges::find(settings, a.text, &model::Expression::text) == settings.end())
+            out += ' ' + of_assignments({a.text}, 0).shell;
+    for (const auto& action : s.live.history.actions())
+        if (sets_parameters(action) && action.cycle < s.live.run->cycle())
+            for (const auto& text : action.command.at("assignments"))
+                if (!waits_for_start(s, text)) out += ' ' + of_assignments({text}, action.cycle).shell;
+    return out;
+}
+
 /// The lines of a shell that make the same file.
 std::string commands_of(Session& s, const Request& r, const FigureNeeds& needs) {
     const RunInput& input = s.live.begun;
@@ -129,6 +152,7 @@ std::string commands_of(Session& s, const Request& r, const FigureNeeds& needs) 
         if (input.lenient) out += " --lenient";
         for (const auto& plugin : input.plugins) out += " --plugin " + shell_word(plugin);
         for (const auto& setting : input.settings) out += " --set " + shell_word(setting.text);
+        out += options_of_parameters(s);
         out += fmt::format(" --seed {} --cycles {}", input.seed, s.run().cycle());
         for (const auto& source : needs.sources) out += " --record " + shell_word(source);
         if (!needs.sources.empty() && needs.from > 0) out += fmt::format(" --record-from {}", needs.from);
@@ -145,15 +169,17 @@ std::string commands_of(Session& s, const Request& r, const FigureNeeds& needs) 
 /// Why these lines alone may give another figure; empty when they give the same.
 std::string difference_of(const Session& s, const FigureNeeds& needs) {
     std::string out;
-    if (s.edited.document->dirty()) out = "Save the system first: its file is older than what runs. ";
+    if (s.edited.document->dirty() && (!needs.run() || !unsaved_parameters(s)))
+        out = "Save the system first: its file is older than what runs. ";
     if (!needs.run()) return out;
     const auto& history = s.live.history;
     if (history.first() > 0)
         out += fmt::format("The system was edited at cycle {}; these lines begin with it at cycle 0. ",
                            history.first());
     const auto now = s.live.run->cycle();
-    if (!s.live.touches->groups().empty() ||
-        std::ranges::any_of(history.actions(), [&](const auto& action) { return action.cycle < now; }))
+    if (!s.live.touches->groups().empty() || std::ranges::any_of(history.actions(), [&](const auto& action) {
+            return action.cycle < now && !sets_parameters(action);
+        }))
         out += "Add the options of the Log: the run was changed while it lasted.";
     return out;
 }

@@ -115,6 +115,12 @@ json set_parameters(Session& s, const std::vector<std::string>& assignments, con
     return out;
 }
 
+bool waits_for_start(Session& s, const std::string& assignment) {
+    Diagnostics not_here;
+    const auto a = model::parse_assignment(s.run().system(), s.run().registry(), assignment, "set", not_here);
+    return !a || acts_at_start(*a);
+}
+
 bool switches_module(const std::vector<std::string>& assignments) {
     return std::ranges::any_of(assignments, [](const auto& a) { return a.find(".enableModule=") != a.npos; });
 }

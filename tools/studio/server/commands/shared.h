@@ -26,6 +26,8 @@ void begin_waiting_sampler(Session& session);
 /// Checks assignments and returns those that undo them. Throws InputError for all mistakes at once.
 std::vector<std::string> inverse(Session& session, const std::vector<std::string>& assignments);
 json set_parameters(Session& session, const std::vector<std::string>& assignments, const std::string& title);
+/// Whether the run takes an assignment only when it begins again.
+bool waits_for_start(Session& session, const std::string& assignment);
 /// Whether an assignment switches a module on or off, which the description of the system says.
 bool switches_module(const std::vector<std::string>& assignments);
 json describe_item_parameters(Session& session, const std::string& item);
