@@ -40,12 +40,14 @@ export default async function({ forage, folder, start, open, step }) {
     assert.ok((await dialog.getByRole('button', { name: 'Export' }).boundingBox()).y < height - 20, `the button at ${width}`);
   }
   await page.setViewportSize({ width: 1400, height: 900 });
+  assert.equal(await dialog.getByLabel('Format').inputValue(), 'png');
   await dialog.getByLabel('Format').selectOption('svg');
   await dialog.getByLabel(/^Width/).first().selectOption('mm');
   await until(page, 'the commands', () => document.querySelector('[aria-label=Commands]')?.textContent.includes("--width '85mm' --plot-format svg"));
   const [space, ofCommands] = await both(() => dialog.getByRole('button', { name: 'Export' }).press('Enter'));
   assert.ok(space.equals(ofCommands) && space.includes('<svg'));
   await dialog.waitFor({ state: 'hidden' });
+  await page.getByText(/^space_Bug_Motor.*\.svg is in the downloads of the browser\.$/).waitFor();
 
   step('a figure over time begins where its panel does, or at another cycle; by keyboard');
   await page.getByRole('navigation').getByText('Light', { exact: true }).click();
