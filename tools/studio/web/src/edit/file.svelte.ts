@@ -112,6 +112,9 @@ class FileDialog {
   error = $state('');
   /** The file that is there already, and can be replaced. */
   taken = $state('');
+  /** Resolves when the dialog is closed. */
+  closed: Promise<void> = Promise.resolve();
+  private settle: () => void = () => {};
 
   open(action: FileAction, process: string | null = null): void {
     this.world = model.world?.file ?? '';
@@ -121,6 +124,8 @@ class FileDialog {
   }
   /** Opens the dialog for a file of a panel. */
   choose(task: FileTask, action: FileAction | null = null): void {
+    this.settle();
+    this.closed = new Promise((settle) => (this.settle = settle));
     this.task = task;
     this.action = action;
     this.error = this.taken = '';
@@ -131,6 +136,7 @@ class FileDialog {
   }
   close(): void {
     this.task = this.action = null;
+    this.settle();
   }
   list(folder: string, beside = ''): Promise<void> {
     return (this.listed = this.read(folder, beside));
@@ -172,6 +178,13 @@ class FileDialog {
     const file = this.path(this.name.trim());
     return this.lists(file) ? file : file + (this.task?.ending ?? '');
   }
+  /** Does what the dialog is for, if `may` allows it, which may ask for the name of a file in this dialog. */
+  async actIf(may: () => Promise<boolean>): Promise<void> {
+    const { task, action, name, world, template, listing } = this;
+    if (!(await may())) return;
+    Object.assign(this, { task, action, name, world, template, listing });
+    await this.act();
+  }
   /** Does what the dialog is for. Stays open, with the reason, when that is refused. */
   async act(overwrite = false): Promise<void> {
     await this.listed;
@@ -194,8 +207,8 @@ export const unsaved = () => editing.dirty || worldFile.dirty;
 
 const unsavedText = () => (editing.dirty && worldFile.dirty ? 'The system and its world have' : editing.dirty ? 'The system has' : 'The world has');
 
-/** Saves what changed. Returns whether all is saved: a system without a file of its own asks for its name first. */
-async function saveAll(): Promise<boolean> {
+/** Saves what changed. Returns whether all is saved. */
+export async function saveAll(): Promise<boolean> {
   if (worldFile.dirty && !(await saveWorld())) return false;
   if (editing.dirty) await save();
   return !unsaved();
@@ -233,9 +246,13 @@ async function sendPending(): Promise<boolean> {
   }
 }
 
+/** Returns when it is saved; a system without a file of its own asks for its name first. */
 export async function save(): Promise<void> {
   if (!(await sendPending())) return;
-  if (!editing.file || editing.shipped || editing.backupOf) return fileDialog.open('save as');
+  if (!editing.file || editing.shipped || editing.backupOf) {
+    fileDialog.open('save as');
+    return fileDialog.closed;
+  }
   if (await command('save')) actions.notify('info', worldFile.dirty ? 'The system is saved, its world is not.' : 'Saved.');
 }
 
@@ -248,7 +265,11 @@ export async function backup(): Promise<void> {
 
 /** Returns whether it is saved. A world that comes with Forage asks for another name first. */
 export async function saveWorld(): Promise<boolean> {
-  if (worldFile.document?.shipped) return fileDialog.open('save the world'), false;
+  if (worldFile.document?.shipped) {
+    fileDialog.open('save the world');
+    await fileDialog.closed;
+    return !worldFile.dirty;
+  }
   if (!(await command('world_save'))) return false;
   actions.notify('info', 'The world is saved; the run restarts in it.');
   return true;

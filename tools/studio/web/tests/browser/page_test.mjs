@@ -166,6 +166,39 @@ export default async function({ start, open, faults, step }) {
   await page.getByRole('group', { name: 'Arena' }).getByRole('button', { name: 'Open an example…' }).click();
   await examples.getByRole('button', { name: 'Close' }).click();
 
+  step('what was changed is saved under a name before another system is opened or begun');
+  const change = async (task) => {
+    await find(page, 'layer/approach');
+    const field = page.locator('[id="Reactive Layer/Approach.threshold"]');
+    await until(page, 'the value of the file', (id) => document.getElementById(id)?.value === '0.7', 'Reactive Layer/Approach.threshold');
+    await field.fill('0.6');
+    await field.press('Enter');
+    await page.getByTitle(/^Undo: Reactive Layer\/Approach.threshold = 0.6/).waitFor();
+    await task();
+    await page.getByRole('dialog', { name: 'Changes' }).getByRole('button', { name: 'Save' }).click();
+  };
+  const saveAs = async (name) => {
+    await page.getByRole('dialog', { name: 'Save as' }).getByLabel('Name').fill(name);
+    await page.keyboard.press('Enter');
+    await page.getByText(`Saved as ${name}.`).waitFor();
+  };
+  const another = async () => {
+    await find(page, 'Open an example');
+    await examples.getByRole('button', { name: /^Reactive foraging/ }).click();
+  };
+  await change(another);
+  await saveAs('left.iqr');
+  await page.getByTitle('Nothing to undo').waitFor();
+  await until(page, 'the example', () => document.title.includes('reactive_foraging.iqr'));
+  await change(async () => {
+    await find(page, 'New system');
+    const begun = page.getByRole('dialog', { name: 'New system' });
+    await begun.getByLabel('Name').fill('Begun');
+    await begun.getByRole('button', { name: 'Create' }).click();
+  });
+  await saveAs('left_again.iqr');
+  await until(page, 'the new system', () => document.title.includes('Begun'));
+
   step('the server ends: the page says so; faults in between: none');
   assert.deepEqual(faults, []);
   studio.child.removeAllListeners('exit');
