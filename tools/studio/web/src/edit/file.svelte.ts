@@ -202,8 +202,11 @@ class FileDialog {
 
 export const fileDialog = new FileDialog();
 
-/** Whether the system or its world has changes that are not saved. */
-export const unsaved = () => editing.dirty || worldFile.dirty;
+/** The generation of the last change. */
+export const lastChange = () => actions.log.at(-1)?.generation;
+
+/** Whether the system or its world has changes of the user that are not saved. */
+export const unsaved = () => (editing.dirty && (editing.own === undefined || editing.own !== lastChange())) || worldFile.dirty;
 
 const unsavedText = () => (editing.dirty && worldFile.dirty ? 'The system and its world have' : editing.dirty ? 'The system has' : 'The world has');
 

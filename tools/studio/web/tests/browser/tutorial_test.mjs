@@ -199,7 +199,7 @@ export default async function({ site, folder, start, open, faults, step }) {
   });
   await page.getByRole('button', { name: 'Pause', exact: true }).click();
 
-  step('a choice of the tutorial is a parameter of the run; changes of the user are not dropped without asking');
+  step('a choice of the tutorial is a parameter of the run that need not be saved; changes of the user are not dropped without asking');
   const change = async () => {
     await tutorial.locator('[data-open="0"]').click();
     await tutorial.locator('.setup.active [data-open="0"]').waitFor();
@@ -207,9 +207,11 @@ export default async function({ site, folder, start, open, faults, step }) {
     await page.getByTitle(/^Undo: Adaptive.eta = 0.005/).waitFor();
     const inForce = tutorial.locator('.setup.active').getByRole('button', { name: 'Adaptive.eta = 0.005' }).and(page.locator('[aria-pressed="true"]'));
     await inForce.waitFor();
+    await until(page, 'no change to be saved', () => !document.title.startsWith('●'));
     await page.getByRole('button', { name: 'Undo' }).click();
     await inForce.waitFor({ state: 'detached' });
     await page.getByRole('button', { name: 'Redo' }).click();
+    await until(page, 'a change of the user', () => document.title.startsWith('●'));
   };
   await tutorial.getByRole('button', { name: '3', exact: true }).click();
   await change();
