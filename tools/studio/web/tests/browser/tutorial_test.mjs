@@ -91,6 +91,7 @@ export default async function({ site, folder, start, open, faults, step }) {
   await until(page, 'the names of the traces', () => [...document.querySelectorAll('.key .name')].map((n) => n.textContent).join() === 'efficiency,fairness,stability');
   await page.getByRole('button', { name: 'Step one cycle' }).click();
   await page.getByText('0.04 s (cycle 1)').waitFor();
+  await page.getByTitle('0.04 s (cycle 1). In a cycle each cell is updated once; it lasts 0.04 s in the world.').waitFor();
   await page.getByRole('application', { name: 'Cells of Allostasis/Needs' }).focus();
   for (let i = 0; i < 2; i++) await page.keyboard.press('ArrowRight'); // the first press shows the first cell
   await page.getByRole('group', { name: 'Space plot of Allostasis/Needs' }).getByText('hydration (2, 1)').waitFor();
