@@ -150,7 +150,7 @@ class Validator {
                 if (!fresh && it->second->id != g.id)
                     out_.warning(
                         g.at,
-                        fmt::format("there is already a group '{}', on line {}", path, it->second->at.line),
+                        fmt::format("there is already a group '{}', with the id '{}'", path, it->second->id),
                         fmt::format("rename one of them, or name this one in options as '{}#{}'", path,
                                     g.id));
             }

@@ -518,7 +518,11 @@ class Watching(unittest.TestCase):
         self.page.do('step', cycles=700)
         for wanted in (['learning'], ['time:Reactive Layer/Approach']):
             shell = self.check_figure('svg', plots=wanted)
-            for option in ("--set 'Reactive Layer/Approach.threshold=0.5'", "--set 'Selection/Explore.excGain=0.9'", "--schedule 'cycle 700: Bug/Light.threshold=0.2'"):
+            for option in (
+                "--set 'Reactive Layer/Approach.threshold=0.5'",
+                "--set 'Selection/Explore.excGain=0.9'",
+                "--schedule 'cycle 700: Bug/Light.threshold=0.2'",
+            ):
                 self.assertIn(option, shell)
         self.assertIn('Save the system', self.page.do('figure', plots=['diagram'])['note'])
 
