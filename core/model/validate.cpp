@@ -631,6 +631,24 @@ class Validator {
 
 }  // namespace
 
+void warn_of_sums(const System& system, Diagnostics& diagnostics) {
+    std::map<std::string_view, const Process*> writers;  // by the group's id
+    for (const auto& p : system.processes)
+        if (p.module && p.module_enabled)
+            for (const auto& output : p.module->outputs) writers.emplace(output.target, &p);
+    const GroupIndex groups(system);
+    for (const auto& c : system.connections) {
+        const auto target = groups.find(c.target);
+        if (const auto writer = writers.find(c.target); target.group && writer != writers.end())
+            diagnostics.warning(
+                c.at,
+                fmt::format("connection '{}' leads to '{}', to which the module of process '{}' writes: its "
+                            "cells get the sum of both",
+                            trim(c.name), trim(target.group->name), trim(writer->second->name)),
+                "lead it to another group, unless the sum is meant");
+    }
+}
+
 void check_time_constant(const std::string& name, std::string_view doc, double tau, double dt,
                          const Location& at, Diagnostics& out) {
     if (!(tau > 0))

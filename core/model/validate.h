@@ -17,6 +17,9 @@ namespace forage::model {
 void validate(const System& system, const Registry& registry, Diagnostics& diagnostics,
               Environment* environment = nullptr);
 
+/// Warns of connections to groups to which an enabled module writes, too.
+void warn_of_sums(const System& system, Diagnostics& diagnostics);
+
 /// Reports a time constant (s) that is not positive, or too short for cycles of `dt` s.
 void check_time_constant(const std::string& name, std::string_view doc, double tau, double dt,
                          const Location& at, Diagnostics& diagnostics);

@@ -133,9 +133,13 @@ class Robot(unittest.TestCase):
             self.check(two), r"a.iqr:\d+:\d+: error: 'prototype' writes to 'Adaptive/prototype', to which '_color' of the module of 'Vision' writes, too"
         )
 
+    def test_a_connection_to_a_group_that_a_module_writes_is_a_warning(self):
+        err = self.check(('source="bug.light" target="reactive.us"', 'source="bug.light" target="bug.sensor"'), status=0)
+        self.assertIn("leads to 'Sensor', to which the module of process 'Bug' writes: its cells get the sum of both", err)
+
     def test_two_groups_of_one_name_are_a_warning(self):
         err = self.check(('id="bug.place_cells" name="Place Cells"', 'id="bug.place_cells" name="GPS"'), status=0)
-        self.assertRegex(err, r"a.iqr:\d+:\d+: warning: there is already a group 'Bug/GPS', on line \d+")
+        self.assertRegex(err, r"a.iqr:\d+:\d+: warning: there is already a group 'Bug/GPS', with the id 'bug.gps'")
         self.assertIn("'Bug/GPS#bug.place_cells'", err)
 
     def test_one_system_drives_two_robots(self):

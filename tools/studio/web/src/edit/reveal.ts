@@ -1,4 +1,5 @@
 // Choosing an item outside of the diagram, which then shows it.
+import { editing } from './document.svelte';
 import { actions } from '../stores/actions.svelte';
 import { frame } from '../stores/frame.svelte';
 import { model } from '../stores/model.svelte';
@@ -27,7 +28,8 @@ export function reveal(id: string): void {
 
 /** Opens the form of a new connection, which says which cells it joins. On a small window the form would cover the diagram: a message offers it. */
 export function revealConnection(id: string): void {
-  if (frame.narrow) return actions.notify('info', 'The groups are connected.', { action: { label: 'Choose cells', act: () => reveal(id) } });
+  const warning = editing.of(id)[0];
+  if (frame.narrow) return actions.notify('info', `The groups are connected${warning ? `: ${warning.message}` : ''}.`, { action: { label: 'Choose cells', act: () => reveal(id) } });
   frame.inspector = true;
   selection.select(id);
 }
