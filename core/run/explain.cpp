@@ -66,6 +66,19 @@ bool reads_input(const NeuronType& type) {
     return std::ranges::any_of(type.reads, [](bool reads) { return reads; });
 }
 
+/// Whether a group stays silent because nothing leads there.
+bool is_undriven(const Wiring::Group& wires, const NeuronType& type) {
+    return !wires.driven() && wires.ignored.empty() && wires.disabled.empty() && reads_input(type);
+}
+
+std::string undriven_text(const Layout& layout, std::size_t group, const Wiring::Group& wires) {
+    std::string out = fmt::format("nothing drives group '{}'", layout.groups[group].path);
+    if (!wires.readers.empty())
+        out += fmt::format(", so the module of process '{}' reads only zeros there",
+                           layout.modules[static_cast<std::size_t>(wires.readers.front())].process);
+    return out;
+}
+
 class Explainer {
   public:
     Explainer(const model::System& system, const Layout& layout, const observe::GroupStatistics& statistics,
@@ -289,8 +302,8 @@ std::vector<std::string> wiring_notes(const model::System& system, const Layout&
         if (!used)
             out.push_back(
                 fmt::format("group '{}' has neither incoming nor outgoing connections", about.path));
-        else if (reads_input(about.type))
-            out.push_back(fmt::format("nothing drives group '{}'", about.path));
+        else if (is_undriven(wires, about.type))
+            out.push_back(undriven_text(layout, g, wires));
     }
     std::map<std::string_view, std::vector<std::string>> lines;  // by name
     for (const auto& c : system.connections)
@@ -300,6 +313,18 @@ std::vector<std::string> wiring_notes(const model::System& system, const Layout&
             out.push_back(
                 fmt::format("{} connections have the name '{}', on lines {}; options name them by their ids",
                             where.size(), name, separated(where, ", ")));
+    return out;
+}
+
+std::vector<UndrivenInput> undriven_inputs(const model::System& system, const Layout& layout,
+                                           const std::set<int>& manipulated) {
+    std::vector<UndrivenInput> out;
+    const Wiring wiring(system, layout);
+    for (std::size_t g = 0; g < wiring.groups.size(); ++g)
+        if (const auto& wires = wiring.groups[g]; !wires.readers.empty() &&
+                                                  is_undriven(wires, layout.groups[g].type) &&
+                                                  !manipulated.contains(static_cast<int>(g)))
+            out.push_back({static_cast<int>(g), undriven_text(layout, g, wires)});
     return out;
 }
 

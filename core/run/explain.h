@@ -16,6 +16,14 @@ namespace forage {
 std::vector<std::string> wiring_notes(const model::System& system, const engine::Layout& layout,
                                       const std::set<int>& manipulated = {});
 
+/// A group that an enabled module reads although nothing drives it, and a sentence that says so.
+struct UndrivenInput {
+    int group;
+    std::string text;
+};
+std::vector<UndrivenInput> undriven_inputs(const model::System& system, const engine::Layout& layout,
+                                           const std::set<int>& manipulated = {});
+
 /// Returns a table of the mean, least and largest value and the share of active cells of every group's
 /// activity and inputs over a run, for a terminal.
 std::string activity_table(const engine::Layout& layout, const observe::GroupStatistics& statistics);

@@ -7,7 +7,7 @@ import re
 import sys
 import unittest
 
-from cli_test import EXERCISE, SYSTEM, WORLD, Cli
+from cli_test import EXERCISE, PROJECT, SYSTEM, WORLD, Cli
 from prune_test import WEAK, connection, group
 
 NEURON = 'name="neuronLinearThreshold"><Parameter name="threshold" value="{}"/>'
@@ -135,6 +135,11 @@ class Explain(Cli):
     def test_check_notes_what_is_known_without_a_run(self):
         (self.here / "small.iqr").write_text(system([group("A", NEURON.format(0)), group("B", NEURON.format(0))], [connection("1", "A", "B", STRONG)]))
         self.assertIn("note: nothing drives group 'P/A'", self.forage("check", "small.iqr").stdout)
+        exercise = PROJECT / "systems/dac_foraging_exercise.iqr"
+        self.assertIn(
+            "nothing drives group 'Adaptive/UR', so the module of process 'Adaptive' reads only zeros there",
+            self.forage("check", exercise, "--world", WORLD).stdout,
+        )
 
     def test_two_connections_of_one_name_are_noted(self):
         twice = [connection(n, "A", "B", STRONG).replace(f'name="{n}"', 'name="Twin"', 1) for n in ("c", "d")]

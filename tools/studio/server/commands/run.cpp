@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "core/run/explain.h"
 #include "tools/api/edit/part_operations.h"
 #include "tools/api/open/sources.h"
 #include "tools/plot/figure.h"
@@ -27,7 +29,13 @@ json start_run(Session& s, const Request&) {
     begin_waiting_sampler(s);
     s.live.pace.running = s.pages.status_due = true, s.live.pause_when.reset();
     s.live.pace.start();
-    return json::object();
+    std::set<int> touched;
+    for (const auto& [group, manipulation] : s.live.touches->groups()) touched.insert(group);
+    json undriven = json::array();
+    const auto& layout = s.run().layout();
+    for (const auto& [group, text] : undriven_inputs(s.run().system(), layout, touched))
+        undriven.push_back({{"group", layout.groups[static_cast<std::size_t>(group)].id}, {"text", text}});
+    return {{"undriven", std::move(undriven)}};
 }
 
 json run_until(Session& s, const Request& r) {
@@ -43,7 +51,7 @@ json run_until(Session& s, const Request& r) {
     if (condition.holds(s.run()))
         throw InputError(fmt::format("'{}' holds already", length.until.text),
                          "go back, or wait for something else");
-    start_run(s, r);
+    json started = start_run(s, r);
     s.live.pause_when = {length, std::move(condition), StopCondition::begin(s.run())};
     std::string title = "run";
     if (length.trials) title += fmt::format(" {} trials", *length.trials);
@@ -54,7 +62,7 @@ json run_until(Session& s, const Request& r) {
     if (length.trials) from_start.trials = *length.trials + s.live.pause_when->since.trials;
     if (length.seconds) from_start.seconds = *length.seconds + s.run().seconds();
     s.log({.command = "run_until", .title = title, .scripts = of_run(length, from_start)});
-    return json::object();
+    return started;
 }
 
 json condition_holds(Session& s, const Request& r) {
@@ -222,14 +230,19 @@ Equivalent begun_again(const Session& s, Equivalent (*form)(const Opened&), cons
 }
 
 std::vector<Command> run_commands() {
+    const std::string undriven = "{ undriven: { group: string; text: string }[] }";
     return {
-        {.name = "run", .doc = "Starts the run.", .apply = start_run},
+        {.name = "run",
+         .doc = "Starts the run. Returns the groups that modules read although nothing drives them.",
+         .result = undriven,
+         .apply = start_run},
         {.name = "run_until",
          .doc =
              "Starts the run, and pauses it when the first robot has finished so many more trials, after so "
              "many seconds of the world, or when a condition holds.",
          .arguments = {optional("trials", whole(1, 1'000'000)), optional("seconds", number(0, 1e9)),
                        optional("condition", text(), "", "as that of `forage run --until`; empty for none")},
+         .result = undriven,
          .apply = run_until},
         {.name = "holds",
          .doc = "Says whether a condition holds now.",

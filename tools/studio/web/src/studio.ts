@@ -74,7 +74,6 @@ async function moveInHistory(name: 'undo' | 'redo'): Promise<void> {
 
 export const undo = () => moveInHistory('undo');
 export const redo = () => moveInHistory('redo');
-export const toggleRun = () => command(run.status?.running ? 'pause' : 'run');
 
 function receive(message: ServerMessage): void {
   switch (message.type) {

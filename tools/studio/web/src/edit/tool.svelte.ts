@@ -26,7 +26,7 @@ class Tools {
   /** A new comment, which the document has when it has a text, and the pane and the page on which it is written. */
   draft = $state.raw<{ comment: CanvasComment; pane: string; process: string | null } | null>(null);
   /** Groups between which the dialog connects; null when it is closed. */
-  dialog = $state.raw<{ source: string | null; kind: ConnectionKind } | null>(null);
+  dialog = $state.raw<{ source: string | null; target?: string; kind: ConnectionKind } | null>(null);
 
   /** The item whose form gets the focus when it is shown. */
   formToFocus = $state<string | null>(null);

@@ -2,15 +2,15 @@
 import type { DocumentMessage, Driven, EditItem, FilesResult, ItemParameters, LayoutContent, PanelRow, PartSummary, PreviewResult, Problem, RecentFile, ShippedSystem, SynapseTable, Trial, TypesResult, Vocabulary, WorldDocument, WorldKind } from './messages';
 
 export interface Commands {
-  /** Starts the run. */
+  /** Starts the run. Returns the groups that modules read although nothing drives them. */
   run: {
     arguments: {};
-    result: {};
+    result: { undriven: { group: string; text: string }[] };
   };
   /** Starts the run, and pauses it when the first robot has finished so many more trials, after so many seconds of the world, or when a condition holds. */
   run_until: {
     arguments: { trials?: number | null; seconds?: number | null; condition?: string | null };
-    result: {};
+    result: { undriven: { group: string; text: string }[] };
   };
   /** Says whether a condition holds now. */
   holds: {

@@ -265,21 +265,35 @@ export default async function({ forage, folder, start, open, faults, step }) {
   const way = last.slice(1).reduce((sum, [x, y], k) => sum + Math.hypot(x - last[k][0], y - last[k][1]), 0);
   assert.ok(way > 10, `it drives on for ${way} m in the last 20 s, and stands at no wall`);
 
-  step('a robot is one choice, and an error has a button that mends it');
+  step('a robot is one choice; Run says what keeps it at rest; an error has a button that mends it');
+  const begun = async (text, button) => {
+    await page.getByRole('button', { name: 'Run', exact: true }).click();
+    await page.locator('.notice').filter({ hasText: text }).getByRole('button', { name: button }).click();
+    await page.getByRole('button', { name: 'Pause', exact: true }).click();
+  };
   await page.keyboard.press('Alt+n');
   await begin.getByLabel('Name').fill('Empty');
   await begin.getByRole('button', { name: 'Create' }).click();
-  await page.getByRole('button', { name: 'Add the robot Bug' }).first().click(); // in either pane
+  await page.getByRole('button', { name: 'Add the robot Bug' }).first().waitFor(); // in either pane
+  await begun('No module drives the robot Bug.', 'Add the robot Bug');
   for (const name of ['Motor', 'Proximity sensor', 'Target sensor']) await diagram.locator(`.svelte-flow__node[aria-label="${name}"]`).waitFor(); // its text may be shorter
   assert.equal(await problems.count(), 0);
+  await page.getByRole('button', { name: 'Run', exact: true }).click();
+  await page.locator('.notice').filter({ hasText: "Nothing drives group 'Bug/Motor', so the module of process 'Bug' reads only zeros there." }).getByRole('button', { name: 'Connect a group to it' }).click();
+  await until(page, 'the motor as the target', () => [...document.querySelectorAll('dialog[open] option:checked')].some((o) => o.textContent === 'Bug/Motor'));
+  await page.getByRole('dialog', { name: 'Connect' }).getByRole('button', { name: 'Cancel' }).click();
+  await page.getByRole('button', { name: 'Pause', exact: true }).click();
   await page.getByRole('button', { name: 'Close the inspector' }).click();
-  const connect = async () => {
+  const connect = async (target = 'Motor') => {
     await page.getByRole('button', { name: 'Connect excitatory' }).first().click();
-    for (const end of ['Proximity sensor', 'Motor']) await diagram.locator(`.svelte-flow__node[aria-label="${end}"]`).first().click();
+    for (const end of ['Proximity sensor', target]) await diagram.locator(`.svelte-flow__node[aria-label="${end}"]`).first().click();
   };
   await connect();
   await field('Cells').waitFor(); // its form is opened again, as cells are to be chosen
   await inspector.getByText(/^Read by Gazebo Bug as Motor\. The most active cell/).waitFor();
+  await page.keyboard.press('Control+z');
+  await connect('Target sensor');
+  await inspector.getByText("leads to 'Target sensor', to which the module of process 'Bug' writes: its cells get the sum of both").waitFor();
   await page.keyboard.press('Control+z');
   await page.setViewportSize({ width: 1024, height: 700 });
   await page.getByRole('tab', { name: 'Diagram' }).click();
@@ -291,7 +305,8 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await page.setViewportSize({ width: 1400, height: 900 });
   await box(exact('Motor')).press('Delete');
   await page.getByRole('button', { name: '1 problem' }).click();
-  await page.getByRole('group', { name: 'Problems' }).getByRole('button', { name: 'Create group 9 × 9' }).click();
+  await page.getByRole('group', { name: 'Problems' }).getByRole('button', { name: 'Create group 9 × 9' }).waitFor();
+  await begun('This runs the last valid version of the system: Motor of the module of Bug has no group.', 'Create group 9 × 9');
   await problems.waitFor({ state: 'detached' });
   assert.deepEqual(faults, []);
 }

@@ -1,0 +1,29 @@
+// Starts the run, and says what keeps a robot at rest, with the button that mends it.
+import { actions } from '../stores/actions.svelte';
+import { dock } from '../stores/dock.svelte';
+import { model } from '../stores/model.svelte';
+import { run } from '../stores/run.svelte';
+import { command } from '../studio';
+import type { Arguments } from '../connection';
+import { editing } from './document.svelte';
+import { addRobot, fixesOf, freeRobots } from './fixes';
+import { formProblem } from './problem_text';
+import { tools } from './tool.svelte';
+
+const sentence = (text: string) => `${text[0]!.toUpperCase()}${text.slice(1)}.`;
+
+function report(undriven: { group: string; text: string }[]): void {
+  const say = (text: string, label: string, act: () => unknown) => actions.notify('info', text, { cause: 'run', action: { label, act } });
+  const problem = editing.problems.find((p) => p.severity !== 'warning'), robot = freeRobots()[0];
+  if (editing.message?.running_is_current === false && problem) {
+    const fix = fixesOf(problem)[0] ?? { label: 'Show the problems', act: () => dock.plot({ kind: 'problems' }) };
+    say(`This runs the last valid version of the system: ${formProblem(problem).message}.`, fix.label, fix.act);
+  } else if (robot && !model.processes.some((p) => p.module)) say(`No module drives the robot ${robot}.`, `Add the robot ${robot}`, () => addRobot(robot));
+  else if (undriven[0]) say(sentence(undriven[0].text), 'Connect a group to it', () => (tools.dialog = { source: null, target: undriven[0]!.group, kind: 'excitatory' }));
+}
+
+export async function start<C extends 'run' | 'run_until'>(name: C, ...given: Arguments<C>): Promise<void> {
+  const started = await command(name, ...given);
+  if (started) report(started.undriven);
+}
+export const toggleRun = () => (run.status?.running ? command('pause') : start('run'));
