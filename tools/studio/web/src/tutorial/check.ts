@@ -21,7 +21,7 @@ function answerIn(field: HTMLElement): Answer | undefined {
 
 async function find(check: Check, before: Finding | undefined, field: HTMLElement | undefined, looked: boolean): Promise<Finding> {
   const { asked } = check, answer = field && answerIn(field);
-  if (field && !answer) return { right: null, text: `Not answered yet: ${field.querySelector('legend')!.innerText}` };
+  if (field && !answer) return { right: null, text: `Not answered yet: ${field.querySelector('legend')!.innerText.replace(/^Predict, then look: /, '')}` };
   // What was found with other values stays.
   if (!(await areInForce(check.given))) return before?.looked ? before : untried(check);
   if (check.seen) return findSeen(check, await holds(check.seen.condition));

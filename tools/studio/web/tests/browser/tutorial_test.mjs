@@ -105,7 +105,7 @@ export default async function({ site, folder, start, open, faults, step }) {
   assert.equal(await reflex.getByRole('listitem').count(), 0);
   await reflex.getByRole('button', { name: 'Check what I have seen' }).click();
   await reflex.getByText('0 of 30 trials have finished. Run the others, then check again.').waitFor();
-  await reflex.getByText('Not answered yet: Predict, then look:').waitFor();
+  await reflex.getByText('Not answered yet: the robot explores until').waitFor();
   await reflex.getByLabel('From all three starts.').check();
   await reflex.getByRole('button', { name: 'Check what I have seen' }).click();
   await reflex.getByText('You said “From all three starts”. Now look whether it is so, then check again.').waitFor();
