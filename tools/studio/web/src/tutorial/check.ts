@@ -24,7 +24,8 @@ async function find(check: Check, before: Finding | undefined, field: HTMLElemen
   if (field && !answer) return { right: null, text: `Not answered yet: ${field.querySelector('legend')!.innerText.replace(/^Predict, then look: /, '')}` };
   // What was found with other values stays.
   if (!(await areInForce(check.given))) return before?.looked ? before : untried(check);
-  if (check.seen) return findSeen(check, await holds(check.seen.condition));
+  // What was seen stays, too: a light at the left and one at the right are not seen at once.
+  if (check.seen) return before?.right ? before : findSeen(check, await holds(check.seen.condition));
   if (asked && 'choice' in asked) return findChoice(check, answer!.text, answer!.number === asked.choice, looked);
   if (asked && 'quantity' in asked) {
     const { quantity, within, when } = asked, said = answer!.number;

@@ -200,6 +200,25 @@ export default async function({ site, folder, start, open, faults, step }) {
   });
   await page.getByRole('button', { name: 'Pause', exact: true }).click();
 
+  step('what was seen stays, while something else is seen');
+  const hand = tutorial.locator('[data-setup="0"]');
+  await hand.getByLabel('It turns to the right on the spot.').check();
+  const driven = async (keys, found) => {
+    await drive.getByRole('button', { name: 'Clear' }).click();
+    await drive.getByRole('application').focus();
+    for (const key of [...keys, 'Space']) await page.keyboard.press(key);
+    await drive.getByRole('button', { name: 'Send again' }).click();
+    await page.getByRole('button', { name: 'Step one cycle' }).click();
+    await page.getByRole('button', { name: 'Step one cycle' }).click();
+    await hand.getByRole('button', { name: 'Check what I have seen' }).click();
+    await hand.getByText(found).waitFor();
+  };
+  await driven(['Home'], 'Right, the robot turns to its left.');
+  await driven(['End'], 'Right, it drives backwards.');
+  await hand.getByText('You said “It turns to the right on the spot”. Now look whether it is so, then check again.').waitFor();
+  await driven(['End', ...Array(4).fill('ArrowUp')], 'Right, cell (9, 5) drives it.');
+  assert.deepEqual(await hand.getByRole('listitem').evaluateAll((all) => all.map((l) => l.className)), Array(4).fill('right'));
+
   step('a choice of the tutorial is a parameter of the run that need not be saved; changes of the user are not dropped without asking');
   const change = async () => {
     await tutorial.locator('[data-open="0"]').click();
