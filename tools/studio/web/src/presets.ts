@@ -1,4 +1,5 @@
 // Layouts that the studio brings: each is a list of panels with places, filled in where the system has the groups.
+import { flushSync } from 'svelte';
 import { dock, tutorialWidth } from './stores/dock.svelte';
 import { frame } from './stores/frame.svelte';
 import { model } from './stores/model.svelte';
@@ -37,8 +38,9 @@ let tutorial: PanelState = { kind: 'tutorial' };
 /** Opens the tutorial at the left, or below on a small window: at a part of it, or where it was. */
 export function openTutorial(page?: string): void {
   if (page) tutorial = { kind: 'tutorial', page } as PanelState;
-  frame.lend();
-  dock.open(tutorial, frame.small ? { direction: 'below' } : { direction: 'left', width: tutorialWidth(dock.api?.width ?? 0) });
+  flushSync(() => frame.lend());
+  dock.fit();
+  dock.openTutorial(tutorial);
 }
 /** Opens the tutorial, or closes it when it is seen. */
 export function toggleTutorial(): void {
@@ -54,27 +56,27 @@ export function closePlots(): void {
   for (const p of [...(dock.api?.panels ?? [])]) if (isPlot(p.params as PanelState)) dock.api!.removePanel(p);
 }
 
-/** Closes all panels but the tutorial, which it returns. */
-function clear() {
-  const api = dock.api!;
-  const kept = api.panels.find((p) => kindOf(p) === 'tutorial');
+/** Closes all panels but the tutorial, and opens the first one of an arrangement beside it. Returns its id, and the width of all but the tutorial. */
+function begin(first: PanelState): { main: string; width: number } {
+  const api = dock.api!, kept = api.panels.find((p) => kindOf(p) === 'tutorial');
+  dock.forgetRooms();
   for (const p of [...api.panels]) if (p !== kept) api.removePanel(p);
-  return kept;
+  const main = dock.open(first, kept ? { beside: kept.id, direction: frame.small ? 'above' : 'right' } : {})!;
+  if (!kept || frame.small) return { main, width: api.width };
+  kept.api.setSize({ width: tutorialWidth(api.width) });
+  return { main, width: api.width - tutorialWidth(api.width) };
 }
 
 /** The diagram, with the arena behind or beside it. */
 function build(beside: boolean): void {
   if (!dock.api) return;
-  const kept = clear();
-  const diagram = dock.open({ kind: 'diagram' }, kept ? { beside: kept.id, direction: frame.small ? 'above' : 'right' } : {})!;
-  if (!model.world) return;
-  dock.open({ kind: 'arena' }, { beside: diagram, inactive: true, ...(beside ? { direction: 'right', width: Math.round(0.4 * dock.api.width) } : {}) });
+  const { main, width } = begin({ kind: 'diagram' });
+  if (model.world) dock.open({ kind: 'arena' }, { beside: main, inactive: true, ...(beside ? { direction: 'right', width: Math.round(0.4 * width) } : {}) });
 }
 
 /** The panel in question in the largest place, plots at its right, and the arena below it or below them, with the diagram behind it. */
 function around(large: PanelState, others: PanelState[]): void {
-  const api = dock.api!, kept = clear();
-  const main = dock.open(large, kept ? { beside: kept.id, direction: frame.small ? 'above' : 'right' } : {})!;
+  const api = dock.api!, { main, width: all } = begin(large);
   const views: PanelState[] = ([{ kind: 'arena' }, { kind: 'diagram' }] as PanelState[]).filter((p) => p.kind !== large.kind && (p.kind !== 'arena' || model.world));
   if (frame.room !== 'wide') {
     let stack = frame.small ? main : null;
@@ -82,10 +84,9 @@ function around(large: PanelState, others: PanelState[]): void {
     const height = Math.round(api.height * (large.kind === 'diagram' ? 0.35 : 0.43));
     for (const p of [...views.slice(0, 1), ...others, ...views.slice(1)]) stack = dock.open(p, stack ? { beside: stack, inactive: true } : { beside: main, direction: 'below', height });
     api.getPanel(main)?.api.setActive();
-    if (!frame.small) kept?.api.setSize({ width: tutorialWidth(api.width) });
     return;
   }
-  const width = Math.round((api.width - (kept ? tutorialWidth(api.width) : 0)) * 0.4);
+  const width = Math.round(all * 0.4);
   const right: string[] = [];
   const column = () => (right.length ? { beside: right[right.length - 1], direction: 'below' as const } : { beside: main, direction: 'right' as const, width });
   for (const p of others) right.push(dock.open(p, column())!);
@@ -97,7 +98,6 @@ function around(large: PanelState, others: PanelState[]): void {
     else view = dock.open(p, { beside: main, direction: 'below', height: Math.round(api.height * 0.42) });
   }
   api.getPanel(main)?.api.setActive();
-  kept?.api.setSize({ width: tutorialWidth(api.width) });
   for (const id of right) api.getPanel(id)?.api.setSize({ width, height: Math.round(api.height / right.length) });
 }
 
@@ -107,21 +107,17 @@ export function arrange(plots: PanelState[], large?: string): void {
   if (!api) return;
   const main = plots.find((p) => p.kind === large) ?? (large === 'arena' || large === 'diagram' ? { kind: large } : undefined);
   if (main) return around(main, plots.filter((p) => p !== main));
-  const kept = clear();
-  const first: PanelState = model.world ? { kind: 'arena' } : { kind: 'diagram' };
-  const arena = dock.open(first, kept ? { beside: kept.id, direction: frame.small ? 'above' : 'right' } : {})!;
+  const { main: arena, width: room } = begin({ kind: model.world ? 'arena' : 'diagram' });
   if (frame.room !== 'wide') {
     const others: PanelState[] = frame.small && model.world ? [{ kind: 'diagram' }, ...plots] : [...plots, ...(model.world ? [{ kind: 'diagram' }] : [])];
     let stack = frame.small ? arena : null;
     for (const p of others) stack = dock.open(p, stack ? { beside: stack, inactive: true } : { beside: arena, direction: 'below', height: Math.round(api.height * 0.48) });
     api.getPanel(arena)?.api.setActive();
-    if (!frame.small) kept?.api.setSize({ width: tutorialWidth(api.width) });
     return;
   }
   // Many plots stand in two columns: below each other they would be too low to be read.
   const columns = plots.length > 3 ? 2 : 1;
-  const room = api.width - (kept ? tutorialWidth(api.width) : 0);
-  const width = Math.max(220, Math.round(room * (columns > 1 ? 0.48 : kept ? 0.4 : 0.3)));
+  const width = Math.max(220, Math.round(room * (columns > 1 ? 0.48 : frame.reading ? 0.4 : 0.3)));
   const opened: string[] = [];
   for (const p of plots) {
     const above = opened[opened.length - columns], beside = above ?? opened[0] ?? arena;
@@ -129,7 +125,6 @@ export function arrange(plots: PanelState[], large?: string): void {
   }
   if (model.world) dock.open({ kind: 'diagram' }, { beside: arena, direction: 'below', height: Math.round(api.height * 0.52) });
   api.getPanel(arena)?.api.setActive();
-  kept?.api.setSize({ width: tutorialWidth(api.width) });
   for (const id of opened.slice(0, columns)) api.getPanel(id)?.api.setSize({ width: width / columns });
 }
 
@@ -137,7 +132,7 @@ export function arrange(plots: PanelState[], large?: string): void {
 export function applyLayout(content: LayoutContent | null | undefined): boolean {
   for (const p of content?.problems ?? []) actions.notify('error', problemText(p));
   if (content?.dock) {
-    dock.api?.fromJSON(content.dock as never);
+    dock.restore(content.dock as never);
     if (frame.room !== 'wide') dock.gather(frame.room);
   } else if (content?.plots?.length) arrange(content.plots);
   return !!content?.dock || !!content?.plots?.length;

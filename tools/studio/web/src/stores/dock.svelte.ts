@@ -8,6 +8,8 @@ type Direction = 'left' | 'right' | 'above' | 'below' | 'within';
 /** Beside a panel, or without one at an edge of all. */
 type Where = { beside?: string; direction?: Direction; width?: number; height?: number; floating?: boolean; inactive?: boolean };
 
+const kindOf = (panel: { params?: unknown }) => (panel.params as PanelState).kind;
+
 /** The width of the tutorial, of so much for all panels. */
 export const tutorialWidth = (all: number): number => Math.round(Math.min(440, Math.max(300, all * 0.36)));
 
@@ -18,8 +20,10 @@ class Dock {
   arranging = false;
   /** Keeps the arrangement for the next visit, after changes that dockview does not report. */
   keep: () => void = () => {};
-  /** How the panels stood when the window had room for columns. */
-  wide: SerializedDockview | null = null;
+  /** Gives the panels the room that there is now, which dockview itself sees later. */
+  fit: () => void = () => {};
+  /** How the panels stood when the window had other room; null where a layout has replaced all of them since then. */
+  earlier: Partial<Record<Room, SerializedDockview | null>> = {};
   private made = 0;
 
   /** A panel's identity: the same source opens once. */
@@ -67,26 +71,47 @@ class Dock {
     return this.open(panel, { beside: this.api?.panels.find((p) => (p.params as PanelState).kind === kind)?.id });
   }
 
-  /** Arranges all panels for a window without room for columns: the arena, where it is seen, above the tabs of all others; or tabs of one stack. The tutorial stays beside them, or below. */
+  /** A layout replaces all panels: how they stood in a window with other room is of no use. */
+  forgetRooms(): void {
+    this.earlier = { wide: null, narrow: null, small: null };
+  }
+
+  /** The tutorial at the left, or below on a small window. */
+  openTutorial(panel: PanelState): void {
+    this.open(panel, frame.small ? { direction: 'below' } : { direction: 'left', width: tutorialWidth(this.api?.width ?? 0) });
+  }
+
+  /** Shows the panels of a kept arrangement. A tutorial that is open stays, at its place in the text. */
+  restore(layout: SerializedDockview): void {
+    const tutorial = this.api!.panels.find((p) => kindOf(p) === 'tutorial')?.params as PanelState | undefined;
+    for (const p of Object.values(layout.panels)) if (tutorial && kindOf(p) === 'tutorial') p.params = tutorial;
+    this.api!.fromJSON(layout);
+    if (tutorial && !this.find(tutorial)) this.openTutorial(tutorial);
+  }
+
+  /** The panel that a layout gives the first place. */
+  get main() {
+    return this.api?.groups.find((g) => g.panels.length && g.panels.every((p) => kindOf(p) !== 'tutorial'))?.activePanel;
+  }
+
+  /** Arranges all panels for a window without room for columns: the main one above the tabs of all others; or tabs of one stack. The tutorial stays beside them, or below. */
   gather(room: Exclude<Room, 'wide'>): void {
     const api = this.api;
     if (!api || api.totalPanels === 0) return;
-    const active = api.activePanel, panels = [...api.panels];
-    const kindOf = (p: (typeof panels)[number]) => (p.params as PanelState).kind;
+    const active = api.activePanel, main = this.main, panels = [...api.panels];
     const text = panels.filter((p) => kindOf(p) === 'tutorial'), others = panels.filter((p) => !text.includes(p));
-    const arena = others.filter((p) => kindOf(p) === 'arena' && p.api.isVisible); // not one behind the diagram
-    const above = room === 'small' || arena.length === 0 ? others : arena;
     const put = (some: typeof panels, direction?: 'below' | 'left') => {
       if (some.length === 0) return null;
       const group = api.addGroup(direction && { direction }) as DockviewGroupPanel;
       for (const p of some) p.api.moveTo({ group, skipSetActive: p !== some[0] });
       return group;
     };
+    const above = room === 'small' || !main ? others : [main], below = others.filter((p) => !above.includes(p));
     put(above);
-    put(others.filter((p) => !above.includes(p)), 'below');
+    put(below, 'below');
     const beside = put(text, room === 'small' ? 'below' : 'left');
     if (room === 'narrow') beside?.api.setSize({ width: tutorialWidth(api.width) });
-    if (!beside && above === arena) others.find((p) => kindOf(p) === 'diagram')?.api.setActive(); // of the tabs below, as in a new layout
+    below.find((p) => kindOf(p) === (beside ? 'arena' : 'diagram'))?.api.setActive(); // as in a new layout
     active?.api.setActive();
   }
 

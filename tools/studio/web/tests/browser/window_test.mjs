@@ -196,5 +196,36 @@ export default async function({ site, start, open, faults, step }) {
   await page.getByRole('button', { name: 'Undo' }).click();
   await collector.getByText('Module off').waitFor();
 
+  await page.close();
+  const other = await open(await start().address, { width: 1400, height: 900 });
+  await other.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
+  const sizes = [{ width: 1400, height: 900 }, { width: 1024, height: 700 }, { width: 700, height: 600 }];
+  const rooms = [4, 3, 1];
+
+  step('each size of the window has its own arrangement, which comes back with it');
+  await other.setViewportSize(sizes[1]);
+  await count(other, 2);
+  await other.locator('.dv-tab', { hasText: 'Bug/Motor' }).click();
+  await find(other, 'panel: move right');
+  await count(other, 3);
+  const seen = [null, await stacks(other), null];
+  for (const i of [2, 0, 1, 0, 2, 1, 2, 0]) {
+    await other.setViewportSize(sizes[i]);
+    await count(other, rooms[i]);
+    const now = () => stacks(other);
+    seen[i] ??= await now();
+    await eventually(`the arrangement for ${sizes[i].width} pixels`, async () => isDeepStrictEqual(await now(), seen[i]));
+  }
+
+  const diagram = other.getByRole('group', { name: 'Diagram' });
+  const tutorial = other.getByRole('button', { name: 'Tutorial', exact: true });
+  await tutorial.click();
+  step('a system that is opened beside the tutorial leaves it open, and gives the diagram a useful share');
+  const share = () => eventually('a wide diagram', () => diagram.evaluate((e) => e.clientWidth >= 400));
+  await other.keyboard.press('Alt+n');
+  await other.getByRole('dialog', { name: 'New system' }).getByRole('button', { name: 'Create' }).click();
+  await other.getByText('The system is empty.', { exact: false }).waitFor();
+  await share();
+
   assert.deepEqual(faults, []);
 }
