@@ -168,13 +168,14 @@ class Dock {
     this.parked = [];
   }
 
-  /** Opens a plot where the other plots are, or at the right side. */
+  /** Opens a plot where the other plots are, or beside the diagram, which it does not cover where there is another place. */
   plot(panel: PanelState): string | null {
-    const others = this.api?.panels.filter((p) => isPlot(p.params as PanelState)) ?? [];
-    const last = others[others.length - 1];
-    if (!last) return this.open(panel, frame.small ? { beside: this.api?.activePanel?.id } : {});
-    const roomy = last.api.height > 420 && !frame.small;
-    return this.open(panel, { beside: last.id, direction: roomy ? 'below' : 'within' });
+    const groups = this.api?.groups.filter((g) => g.activePanel && !['diagram', 'tutorial'].includes(kindOf(g.activePanel))) ?? [];
+    const last = groups.flatMap((g) => g.panels).filter((p) => isPlot(p.params as PanelState)).pop();
+    if (last) return this.open(panel, { beside: last.id, direction: last.api.height > 420 && !frame.small ? 'below' : 'within' });
+    const diagram = this.api?.panels.find((p) => kindOf(p) === 'diagram' && p.api.isVisible);
+    if (diagram && diagram.api.width > 600) return this.open(panel, { beside: diagram.id, direction: 'right', width: Math.round(0.4 * diagram.api.width) });
+    return this.open(panel, { beside: groups[0]?.activePanel?.id ?? this.main?.id });
   }
 }
 

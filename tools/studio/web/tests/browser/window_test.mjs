@@ -217,7 +217,20 @@ export default async function({ site, start, open, faults, step }) {
     await eventually(`the arrangement for ${sizes[i].width} pixels`, async () => isDeepStrictEqual(await now(), seen[i]));
   }
 
+  step('a plot that is opened from the diagram does not cover it');
   const diagram = other.getByRole('group', { name: 'Diagram' });
+  await find(other, 'layout: build');
+  await count(other, 1);
+  await diagram.locator('.svelte-flow__node[data-id]', { hasText: 'Light' }).first().dblclick();
+  await other.getByRole('group', { name: 'Space plot of Bug/Light' }).waitFor();
+  await diagram.waitFor();
+  await other.setViewportSize(sizes[1]);
+  await find(other, 'layout: overview');
+  await diagram.locator('.svelte-flow__node[data-id]', { hasText: 'GPS' }).first().dblclick();
+  await other.getByRole('group', { name: 'Space plot of Bug/GPS' }).waitFor();
+  await diagram.waitFor();
+  await other.setViewportSize(sizes[0]);
+
   const tutorial = other.getByRole('button', { name: 'Tutorial', exact: true });
   await tutorial.click();
   step('a system that is opened beside the tutorial leaves it open, and gives the diagram a useful share');
