@@ -80,7 +80,7 @@ function shift(p: IDockviewPanel, side: Side): void {
 }
 
 /** Where a panel was before it floated, with its size. */
-const homes = new Map<string, { beside: string; position: Position; index?: number; width: number; height: number }>();
+const homes = new Map<string, { beside?: string; edge?: Side; position: Position; index?: number; width: number; height: number }>();
 
 /** Takes a panel out of the columns into a window above them. */
 export function float(p: IDockviewPanel): void {
@@ -88,8 +88,9 @@ export function float(p: IDockviewPanel): void {
   const api = dock.api!, { width, height } = p.group.api;
   if (!floats(p)) {
     const sibling = p.group.panels.find((q) => q !== p);
-    const side = (Object.keys(sides) as Side[]).find((s) => neighbour(p, s));
+    const all = Object.keys(sides) as Side[], side = all.find((s) => neighbour(p, s)), edge = all.find((s) => !canMove(p, s));
     if (sibling) homes.set(p.id, { beside: sibling.id, position: 'center', index: p.group.panels.indexOf(p), width, height });
+    else if (edge) homes.set(p.id, { edge, position: 'center', width, height });
     else if (side) homes.set(p.id, { beside: neighbour(p, side)!.activePanel!.id, position: sides[side].opposite, width, height });
   }
   const others = api.groups.filter((g) => g.api.location.type === 'floating').length;
@@ -99,11 +100,10 @@ export function float(p: IDockviewPanel): void {
 }
 /** Puts a floating panel back where it was, or at the right edge when what was beside it is gone. */
 export function unfloat(p: IDockviewPanel): void {
-  const home = homes.get(p.id), beside = home && dock.api!.getPanel(home.beside);
-  if (home && beside && !floats(beside)) {
-    p.api.moveTo({ group: beside.group, position: home.position, index: home.index });
-    if (home.position !== 'center') p.api.setSize({ width: home.width, height: home.height });
-  } else p.api.moveTo({ group: dock.api!.addGroup({ direction: 'right' }) });
+  const home = homes.get(p.id), beside = home?.beside && dock.api!.getPanel(home.beside);
+  if (home && beside && !floats(beside)) p.api.moveTo({ group: beside.group, position: home.position, index: home.index });
+  else p.api.moveTo({ group: dock.api!.addGroup({ direction: home?.edge ?? 'right' }) });
+  if (home && !shares(p)) p.api.setSize({ width: home.width, height: home.height });
   done(p);
 }
 
