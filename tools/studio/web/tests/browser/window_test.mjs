@@ -231,14 +231,40 @@ export default async function({ site, start, open, faults, step }) {
   await diagram.waitFor();
   await other.setViewportSize(sizes[0]);
 
+  step('the tutorial shows the same paragraph in windows of all sizes, behind another tab, and when it is opened again');
   const tutorial = other.getByRole('button', { name: 'Tutorial', exact: true });
   await tutorial.click();
+  const text = other.getByRole('group', { name: 'Tutorial', exact: true }).locator('.text');
+  const read = () => text.evaluate((e) => [...e.children].findIndex((c) => c.getBoundingClientRect().bottom > e.getBoundingClientRect().top));
+  const scrolled = () => eventually('paragraph 15', async () => (await read()) === 15);
+  await text.evaluate((e) => e.children[15].scrollIntoView());
+  await scrolled();
+  for (const i of [1, 2, 0]) {
+    await other.setViewportSize(sizes[i]);
+    await eventually('its width', () => text.evaluate((e) => e.clientWidth !== Number(e.dataset.width) && (e.dataset.width = e.clientWidth)));
+    await scrolled();
+  }
+  const docked = await stacks(other);
+  await other.locator('.dv-tab', { hasText: 'Tutorial' }).click({ button: 'right' });
+  await other.getByRole('menuitem', { name: 'Float' }).click();
+  await scrolled();
+  // The menu lies above a floating window.
+  await other.locator('.dv-tab', { hasText: 'Tutorial' }).click({ button: 'right' });
+  await other.getByRole('menuitem', { name: 'Dock' }).click();
+  await eventually('it is at the edge again', async () => isDeepStrictEqual(await stacks(other), docked));
+  await scrolled();
+  await tutorial.click();
+  await text.waitFor({ state: 'detached' });
+  await tutorial.click();
+  await scrolled();
+
   step('a system that is opened beside the tutorial leaves it open, and gives the diagram a useful share');
   const share = () => eventually('a wide diagram', () => diagram.evaluate((e) => e.clientWidth >= 400));
   await other.keyboard.press('Alt+n');
   await other.getByRole('dialog', { name: 'New system' }).getByRole('button', { name: 'Create' }).click();
   await other.getByText('The system is empty.', { exact: false }).waitFor();
   await share();
+  await scrolled();
 
   assert.deepEqual(faults, []);
 }
