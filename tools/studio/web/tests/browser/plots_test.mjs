@@ -43,7 +43,7 @@ export default async function({ folder, start, open, faults, step }) {
   await chosen.waitFor({ state: 'detached' });
 
   step('space: the mean is that of the cells, which are read with the arrow keys; Shift selects');
-  const reading = async () => Number((await space.getByRole('status').first().innerText()).split(') ')[1]);
+  const reading = async () => Number((await space.getByRole('status').last().innerText()).split(') ')[1]);
   const chooseThree = async () => {
     await page.mouse.click(...(await at(4, 1)));
     await space.getByText('(4, 1)').waitFor();
@@ -220,6 +220,8 @@ export default async function({ folder, start, open, faults, step }) {
   const raster = plot('Raster plot of Bug/Motor');
   await raster.getByLabel('State').selectOption('excIn');
   await raster.getByLabel('Time shown').selectOption('100');
+  await raster.getByText('It fills while the system runs.').waitFor();
+  assert.ok(await raster.evaluate((e) => e.querySelector('.names').getBoundingClientRect().right <= e.querySelector('.empty').getBoundingClientRect().left), 'the names of the rows stand beside the text');
   await page.getByRole('button', { name: 'Run', exact: true }).click();
   const begin = await page.evaluate(() => Number(document.querySelector('[aria-label="Moment of the run"]').value));
   await cycle(begin + 60);
