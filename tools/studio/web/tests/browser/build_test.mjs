@@ -149,6 +149,14 @@ export default async function({ forage, folder, start, open, faults, step }) {
     await inspector.getByRole('button', { name: 'Add tuple' }).click();
     await inspector.getByRole('list', { name: 'Tuples' }).getByText(`${s},1 → ${t},1`).waitFor();
   }
+  // Shift chooses all from the last one to this one.
+  await inspector.getByRole('checkbox', { name: 'Source cell (2, 1)' }).click();
+  await inspector.getByRole('checkbox', { name: 'Source cell (4, 1)' }).click({ modifiers: ['Shift'] });
+  await inspector.getByRole('checkbox', { name: 'Target cell (1, 1)' }).click();
+  await inspector.getByRole('button', { name: 'Add tuple' }).click();
+  await inspector.getByRole('list', { name: 'Tuples' }).getByText('2,1 3,1 4,1 → 1,1').waitFor();
+  await inspector.getByRole('button', { name: 'Remove tuple 4' }).click();
+  await inspector.getByRole('button', { name: 'Remove tuple 4' }).waitFor({ state: 'detached' });
   await page.getByRole('button', { name: 'Close the inspector' }).click();
   await diagram.getByLabel('US to Approach, excitatory').dispatchEvent('dblclick'); // a level line has no height to click on
   await heading('US to Approach');

@@ -41,6 +41,15 @@ export default async function({ folder, start, open, faults, step }) {
   await picture(page, 'selected');
   await page.keyboard.press('Escape');
   await chosen.waitFor({ state: 'detached' });
+  await page.mouse.click(...(await at(4, 4)));
+  await page.keyboard.down('Shift');
+  await page.mouse.click(...(await at(6, 5)));
+  await chosen.getByText('6 cells, mean').waitFor();
+  await page.mouse.click(...(await at(6, 6)));
+  await chosen.getByText('9 cells, mean').waitFor();
+  await page.keyboard.up('Shift');
+  await page.keyboard.press('Escape');
+  await chosen.waitFor({ state: 'detached' });
 
   step('space: the mean is that of the cells, which are read with the arrow keys; Shift selects');
   const reading = async () => Number((await space.getByRole('status').last().innerText()).split(') ')[1]);
