@@ -76,6 +76,18 @@ export default async function({ folder, context, start, open, faults, step }) {
   await page.getByRole('button', { name: 'Undo' }).click();
   await inspector.locator('.problem').waitFor({ state: 'detached' });
 
+  step('what one needs first comes first: the weight of a connection is in sight in windows of each size');
+  for (const [width, height] of [[1024, 700], [700, 600], [1400, 900]]) {
+    await page.setViewportSize({ width, height });
+    await find(page, 'Light to US');
+    await heading('Light to US');
+    await inspector.getByLabel('Weight', { exact: true }).waitFor();
+    await until(page, `the weight at ${width}`, () => {
+      const rows = [...document.querySelectorAll('[aria-label="Inspector"] [data-field=weight]')];
+      return rows.length === 1 && rows[0].getBoundingClientRect().bottom < document.querySelector('footer').getBoundingClientRect().top;
+    });
+  }
+
   step('messages stand beside the inspector, in windows of each size');
   for (const [width, height] of [[1024, 700], [700, 700], [1400, 900]]) {
     await page.setViewportSize({ width, height });
