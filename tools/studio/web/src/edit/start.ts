@@ -4,15 +4,17 @@ import { dock } from '../stores/dock.svelte';
 import { model } from '../stores/model.svelte';
 import { run } from '../stores/run.svelte';
 import { command } from '../studio';
-import type { Arguments } from '../connection';
+import type { Commands } from '../protocol/commands';
 import { editing } from './document.svelte';
 import { addRobot, fixesOf, freeRobots } from './fixes';
 import { formProblem } from './problem_text';
 import { tools } from './tool.svelte';
 
+type Started = Commands['run']['result'];
 const sentence = (text: string) => `${text[0]!.toUpperCase()}${text.slice(1)}.`;
 
-function report(undriven: { group: string; text: string }[]): void {
+/** Says what keeps a robot at rest. */
+export function reportStart({ undriven }: Started): void {
   const say = (text: string, label: string, act: () => unknown) => actions.notify('info', text, { cause: 'run', action: { label, act } });
   const problem = editing.problems.find((p) => p.severity !== 'warning'), robot = freeRobots()[0];
   if (editing.message?.running_is_current === false && problem) {
@@ -22,8 +24,8 @@ function report(undriven: { group: string; text: string }[]): void {
   else if (undriven[0]) say(sentence(undriven[0].text), 'Connect a group to it', () => (tools.dialog = { source: null, target: undriven[0]!.group, kind: 'excitatory' }));
 }
 
-export async function start<C extends 'run' | 'run_until'>(name: C, ...given: Arguments<C>): Promise<void> {
-  const started = await command(name, ...given);
-  if (started) report(started.undriven);
+export async function toggleRun(): Promise<void> {
+  if (run.status?.running) return void (await command('pause'));
+  const started = await command('run');
+  if (started) reportStart(started);
 }
-export const toggleRun = () => (run.status?.running ? command('pause') : start('run'));

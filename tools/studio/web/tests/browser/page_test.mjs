@@ -143,10 +143,12 @@ export default async function({ start, open, faults, step }) {
   await trials.getByLabel('Number of trials').fill('1000');
   await condition.fill('trail 5');
   await trials.getByRole('button', { name: 'Run', exact: true }).click();
-  await page.getByRole('alert').filter({ hasText: 'trail' }).first().waitFor();
+  const wrong = trials.getByRole('alert').filter({ hasText: 'trail' });
+  await wrong.waitFor();
+  assert.equal(await condition.getAttribute('aria-invalid'), 'true');
   await condition.fill('trial 5');
   await trials.getByRole('button', { name: 'Run', exact: true }).click();
-  await page.getByRole('alert').filter({ hasText: 'trail' }).first().waitFor({ state: 'detached' });
+  await wrong.waitFor({ state: 'detached' });
   await trials.getByText(/^\d of 4 reached the target/).waitFor();
   await page.getByRole('group', { name: 'Run' }).getByRole('button', { name: 'Run', exact: true }).waitFor();
   await find(page, 'Log');
