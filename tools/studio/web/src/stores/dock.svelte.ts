@@ -94,8 +94,8 @@ class Dock {
     return this.api?.groups.find((g) => g.panels.length && g.panels.every((p) => kindOf(p) !== 'tutorial'))?.activePanel;
   }
 
-  /** Arranges all panels for a window without room for columns: the main one above the tabs of all others; or tabs of one stack. The tutorial stays beside them, or below. */
-  gather(room: Exclude<Room, 'wide'>): void {
+  /** Arranges all panels for a window without room for columns: the main one, with what was behind it in columns, above the tabs of all others; or tabs of one stack. The tutorial stays beside them, or below. */
+  gather(room: Exclude<Room, 'wide'>, before: Room = 'wide'): void {
     const api = this.api;
     if (!api || api.totalPanels === 0) return;
     const active = api.activePanel, main = this.main, panels = [...api.panels];
@@ -106,7 +106,7 @@ class Dock {
       for (const p of some) p.api.moveTo({ group, skipSetActive: p !== some[0] });
       return group;
     };
-    const above = room === 'small' || !main ? others : [main], below = others.filter((p) => !above.includes(p));
+    const above = room === 'small' || !main ? others : before === 'wide' ? [...main.group.panels] : [main], below = others.filter((p) => !above.includes(p));
     put(above);
     put(below, 'below');
     const beside = put(text, room === 'small' ? 'below' : 'left');
