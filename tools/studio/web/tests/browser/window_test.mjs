@@ -217,7 +217,24 @@ export default async function({ site, start, open, faults, step }) {
     await eventually(`the arrangement for ${sizes[i].width} pixels`, async () => isDeepStrictEqual(await now(), seen[i]));
   }
 
+  step('bars of tools have one row, and stay in place as numbers grow');
+  const arena = other.getByRole('group', { name: 'Arena' });
+  for (const size of [...sizes, { width: 1280, height: 720 }]) {
+    await other.setViewportSize(size);
+    await find(other, 'layout: overview');
+    await arena.waitFor();
+    await eventually(`a row at ${size.width}`, () => arena.locator('.bar').first().evaluate((e) => e.offsetHeight < 36 && e.scrollWidth <= e.clientWidth));
+  }
+  const places = () => Promise.all([other.getByLabel('Seed of the run'), other.getByLabel('Colour scale').first(), arena.getByRole('button', { name: 'Rays' })].map(async (e) => Math.round((await e.boundingBox()).x)));
+  const began = await places();
+  await other.getByRole('button', { name: 'Max', exact: true }).click();
+  await other.getByRole('button', { name: 'Run', exact: true }).click();
+  await until(other, 'many cycles', () => Number(document.querySelector('[aria-label="Moment of the run"]').value) > 1000);
+  await other.getByRole('button', { name: 'Pause', exact: true }).click();
+  assert.deepEqual(await places(), began);
+
   step('a plot that is opened from the diagram does not cover it');
+  await other.setViewportSize(sizes[0]);
   const diagram = other.getByRole('group', { name: 'Diagram' });
   await find(other, 'layout: build');
   await count(other, 1);
