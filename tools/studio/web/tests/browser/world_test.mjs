@@ -86,7 +86,9 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await page.keyboard.press('Control+z');
   await becomes('Width, m', '1.5');
 
-  step('the kinds stand under their headings, each with a drawing');
+  step('the kinds stand under their headings, each with a drawing and its name');
+  const named = await world.getByRole('toolbar').getByRole('button').evaluateAll((all) => all.filter((b) => [...b.childNodes].some((n) => n.nodeType === 3 && n.data.trim() && b.offsetWidth > 20)).length);
+  assert.equal(named, await world.getByRole('toolbar').getByRole('button').count());
   assert.deepEqual(await world.getByRole('toolbar').getByRole('group').evaluateAll((all) => all.map((g) => g.ariaLabel)), ['Robots', 'Obstacles', 'Floor', 'Targets', 'Rules and light']);
   assert.equal(await world.getByRole('toolbar').locator('button svg').count(), await world.getByRole('toolbar').getByRole('button').count());
 
