@@ -270,6 +270,12 @@ export default async function({ site, start, open, faults, step }) {
   await other.getByRole('menuitem', { name: 'Dock' }).click();
   await eventually('it is at the edge again', async () => isDeepStrictEqual(await stacks(other), docked));
   await scrolled();
+  await other.locator('.dv-tab', { hasText: 'Tutorial' }).click({ button: 'right' });
+  await other.getByRole('menuitem', { name: 'Into the tabs of…' }).click();
+  await other.getByRole('menuitem', { name: 'Bug/Motor' }).click();
+  await scrolled();
+  for (const tab of ['Bug/Motor', 'Tutorial']) await other.locator('.dv-tab', { hasText: tab }).click();
+  await scrolled();
   await tutorial.click();
   await text.waitFor({ state: 'detached' });
   await tutorial.click();
