@@ -71,7 +71,7 @@ class Dock {
     return this.open(panel, { beside: this.api?.panels.find((p) => (p.params as PanelState).kind === kind)?.id });
   }
 
-  /** A layout replaces all panels: how they stood in a window with other room is of no use. */
+  /** A layout replaces all panels: what windows with other room had is discarded. */
   forgetRooms(): void {
     this.earlier = { wide: null, narrow: null, small: null };
   }
