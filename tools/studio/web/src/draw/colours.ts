@@ -46,4 +46,9 @@ export function cssColour(name: MapName, fraction: number): string {
 
 /** Colours of lines, distinguishable also with a colour vision deficiency (Okabe and Ito). */
 const lineColours = ['#0072b2', '#d55e00', '#009e73', '#cc79a7', '#56b4e9', '#e69f00', '#8c564b', '#8c8c8c'];
-export const lineColour = (i: number): string => lineColours[i % lineColours.length]!;
+/** Those of them that are too dark for a dark page. */
+const onDark: Record<string, string> = { '#0072b2': '#2e8ad8', '#8c564b': '#b87d71' };
+export function lineColour(i: number, dark = false): string {
+  const colour = lineColours[i % lineColours.length]!;
+  return (dark && onDark[colour]) || colour;
+}
