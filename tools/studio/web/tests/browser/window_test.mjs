@@ -225,6 +225,14 @@ export default async function({ site, start, open, faults, step }) {
     await arena.waitFor();
     await eventually(`a row at ${size.width}`, () => arena.locator('.bar').first().evaluate((e) => e.offsetHeight < 36 && e.scrollWidth <= e.clientWidth));
   }
+  for (const width of [700, 861, 990, 991, 1101, 1241, 1321]) {
+    await other.setViewportSize({ width, height: 700 });
+    await until(other, `the time and the trials at ${width}`, () => {
+      const all = document.querySelector('.readings').getBoundingClientRect();
+      return [...document.querySelectorAll('.readings > div')].slice(0, 2).every((d) => d.getBoundingClientRect().right <= all.right + 1 && d.getBoundingClientRect().bottom <= all.bottom + 1);
+    });
+  }
+  await other.setViewportSize(sizes[0]);
   const places = () => Promise.all([other.getByLabel('Seed of the run'), other.getByLabel('Colour scale').first(), arena.getByRole('button', { name: 'Rays' })].map(async (e) => Math.round((await e.boundingBox()).x)));
   const began = await places();
   await other.getByRole('button', { name: 'Max', exact: true }).click();
