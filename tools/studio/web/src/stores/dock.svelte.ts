@@ -137,7 +137,7 @@ class Dock {
 
   /** Applies an edit of the system to the panels. Returns the ids of items whose panels were closed, one per panel. */
   follow(changes: NameChanges): string[] {
-    const closed: string[] = [];
+    const closed: string[] = [], tutorial = this.api?.panels.find((p) => kindOf(p) === 'tutorial'), width = tutorial?.api.width;
     for (const p of [...(this.api?.panels ?? [])]) {
       const panel = p.params as PanelState, next = followed(panel, changes);
       if (next === panel) {
@@ -151,6 +151,8 @@ class Dock {
         p.api.setTitle(kinds[next.kind]!.title(next));
       }
     }
+    // The room of closed panels is for the others.
+    if (closed.length && !frame.small) tutorial?.api.setSize({ width });
     for (const entry of this.parked) {
       const next = followed(entry.panel, changes);
       if (typeof next !== 'string') entry.panel = next;
