@@ -14,8 +14,17 @@ export default async function({ start, open, faults, step }) {
   await page.getByRole('navigation').getByText('Head Direction Cells').waitFor();
 
   step('all buttons of the diagram have room; that there is nothing to undo is reported, and is no error');
-  const cut = await page.getByRole('toolbar', { name: 'Editing' }).evaluate((bar) => [...bar.querySelectorAll('button')].filter((b) => b.getBoundingClientRect().right > bar.getBoundingClientRect().right).map((b) => b.textContent));
-  assert.deepEqual(cut, []);
+  const tools = () => page.getByRole('toolbar', { name: 'Editing' }).evaluate((bar) => {
+    const all = [...bar.querySelectorAll('button')].map((b) => [b.ariaLabel ?? b.textContent, b.getBoundingClientRect()]);
+    return { cut: all.filter(([, r]) => r.right > bar.getBoundingClientRect().right).map(([name]) => name), places: all.filter(([name]) => /^Select|^Comment|^Connect/.test(name)).map(([name, r]) => [name, r.x]) };
+  });
+  const ofGroups = await tools();
+  assert.deepEqual(ofGroups.cut, []);
+  await page.getByRole('group', { name: 'Processes' }).getByRole('button', { name: 'System' }).click();
+  await page.getByRole('button', { name: 'Add a part' }).waitFor();
+  assert.deepEqual(await tools(), ofGroups, 'the tools stay in place on the page of the system');
+  await page.getByRole('group', { name: 'Processes' }).getByRole('button', { name: 'Bug' }).click();
+  await page.getByRole('button', { name: 'Add a part' }).waitFor({ state: 'detached' });
   for (const kind of ['excitatory', 'inhibitory', 'modulatory']) await page.getByRole('button', { name: `Connect ${kind}` }).getByText(kind, { exact: true }).waitFor(); // in words
   await page.keyboard.press('Control+z');
   await page.locator('.notice.info').filter({ hasText: 'there is nothing to undo' }).waitFor();
