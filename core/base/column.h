@@ -1,6 +1,7 @@
 // Columns: one number per cell of a group, in the order of cells (row by row).
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 
@@ -15,6 +16,9 @@ using ConstColumn = Eigen::Map<const Eigen::ArrayXd>;
 /// The three ways in which a connection acts on its target.
 enum class InputKind { excitatory, inhibitory, modulatory };
 inline constexpr int input_kinds = 3;
+inline constexpr std::array<const char*, input_kinds> input_kind_names = {"excitatory", "inhibitory",
+                                                                          "modulatory"};
+inline std::string name_of(InputKind kind) { return input_kind_names[static_cast<std::size_t>(kind)]; }
 /// How many inputs a type may have: these, and further ones that it declares (NeuronType::inputs).
 inline constexpr int max_inputs = 8;
 

@@ -30,10 +30,6 @@ std::string in_brackets(std::string_view sentence) {
     return sentence.empty() ? "" : fmt::format(" ({})", sentence);
 }
 
-std::string_view name_of(InputKind kind) {
-    return std::array{"excitatory", "inhibitory", "modulatory"}[static_cast<std::size_t>(kind)];
-}
-
 struct UnknownType {
     std::string message, hint;
 };

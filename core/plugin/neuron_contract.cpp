@@ -13,8 +13,6 @@
 namespace forage::plugin {
 namespace {
 
-constexpr std::array<const char*, input_kinds> kinds = {"excitatory", "inhibitory", "modulatory"};
-
 using Undeclared = NeuronColumns::Undeclared;
 
 /// What some cells receive in every cycle.
@@ -79,7 +77,7 @@ std::string undeclared_numbers(const NeuronType& type, const Given& declared) {
             return fmt::format(
                 "its update() reads the {0} input, and its describe() does not declare "
                 "reads(InputKind::{0}): that input stays 0",
-                kinds[k]);
+                input_kind_names[k]);
     }
     for (const double value : {0.03, 0.3, 0.6, 0.97}) {
         Given given = declared;

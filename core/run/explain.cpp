@@ -20,7 +20,6 @@ using engine::Layout;
 using observe::Spread;
 
 constexpr std::array<const char*, input_kinds> kind_names = {"excitation", "inhibition", "modulation"};
-constexpr std::array<const char*, input_kinds> kind_adjectives = {"excitatory", "inhibitory", "modulatory"};
 
 /// A measured number, rounded as in the summaries of experiments.
 std::string readable(double value) { return plain_number(value + 0.0, 4); }  // + 0.0 turns -0 into 0
@@ -182,8 +181,7 @@ class Explainer {
                                    wires.disabled);
             if (!wires.ignored.empty())
                 return fmt::format("its only input is {}, which {} does not read",
-                                   kind_adjectives[number_of(layout_.connections[at(wires.ignored[0])].kind)],
-                                   type.name);
+                                   name_of(layout_.connections[at(wires.ignored[0])].kind), type.name);
             return "nothing drives it: no connection ends there, and no module writes to it";
         }
         if (type.reads[number_of(InputKind::excitatory)] && excitation.silent()) {

@@ -21,11 +21,6 @@ const model::Process* find_process(const model::System& system, std::string_view
     return found.empty() ? nullptr : &system.processes[found.front()];
 }
 
-std::string_view name_of(InputKind kind) {
-    constexpr std::string_view names[] = {"excitatory", "inhibitory", "modulatory"};
-    return names[static_cast<std::size_t>(kind)];
-}
-
 /// The input that each synapse delivers for an activity of 1.
 std::vector<double> strengths(const model::Connection& c, const connectivity::Synapses& synapses,
                               const SynapseType& type, const engine::Simulation* simulation) {

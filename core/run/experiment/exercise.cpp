@@ -48,8 +48,6 @@ Number measured(const model::Requirement& r, std::size_t measure, std::span<cons
     return out;
 }
 
-constexpr std::string_view kinds[] = {"excitatory", "inhibitory", "modulatory"};
-
 /// The number of synapses of a kind, or of any when it is empty, between the cells that a requirement names.
 std::optional<double> synapses(const model::Requirement& r, std::string_view kind,
                                const model::System& system, const engine::Layout& layout,
@@ -67,7 +65,7 @@ std::optional<double> synapses(const model::Requirement& r, std::string_view kin
     const model::GroupIndex groups(system);
     double count = 0;
     for (const auto& c : system.connections) {
-        if (!kind.empty() && kinds[static_cast<std::size_t>(c.kind)] != kind) continue;
+        if (!kind.empty() && name_of(c.kind) != kind) continue;
         if (c.target != to->what().group_id || (from && c.source != from->what().group_id)) continue;
         Diagnostics known;  // those of a connection that cannot be built stop the run
         const auto made = connectivity::connect(c, groups.find(c.source).group->topology,
@@ -208,7 +206,7 @@ std::vector<Finding> findings(const model::Experiment& experiment, std::span<con
         if (is_share(r) && n.all == 0)
             advice = std::exchange(moved, false) ? no_trial(experiment, results) : "";
         if (!met && n.value && !r.from.empty() && !r.kind.empty() && r.at_least)
-            for (const auto kind : kinds)
+            for (const std::string_view kind : input_kind_names)
                 if (kind != r.kind && synapses(r, kind, system, layout, diagnostics).value_or(0) > 0)
                     advice =
                         fmt::format("It is connected, but {}: the `type` of the connection should be \"{}\".",

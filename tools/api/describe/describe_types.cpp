@@ -72,9 +72,8 @@ json describe_types(const Registry& registry) {
     for (const auto& [name, type] : registry.neurons()) {
         json row = named(type);
         row["reads"] = json::array(), row["states"] = json::array();
-        constexpr const char* kinds[] = {"excitatory", "inhibitory", "modulatory"};
         for (std::size_t k = 0; k < input_kinds; ++k)
-            if (type.reads[k]) row["reads"].push_back(kinds[k]);
+            if (type.reads[k]) row["reads"].push_back(input_kind_names[k]);
         for (const auto& input : type.inputs) row["reads"].push_back(input);
         for (const auto& s : type.states)
             row["states"].push_back({{"name", s.name}, {"label", s.label}, {"output", s.output}});

@@ -209,11 +209,6 @@ std::string describe(const model::DistanceFunction& function) {
         function.form);
 }
 
-std::string name_of(InputKind kind) {
-    constexpr std::string_view names[] = {"excitatory", "inhibitory", "modulatory"};
-    return std::string(names[static_cast<std::size_t>(kind)]);
-}
-
 /// The paths of groups by their ids.
 using Paths = std::unordered_map<std::string_view, std::string>;
 

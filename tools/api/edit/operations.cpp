@@ -24,12 +24,6 @@ namespace forage::editing {
 using namespace model;
 using Strings = std::map<std::string, std::string>;
 
-namespace {
-
-constexpr const char* kinds[] = {"excitatory", "inhibitory", "modulatory"};  ///< as InputKind
-
-}  // namespace
-
 struct SystemEdit {
     System& system;
     const Registry& registry;
@@ -47,11 +41,11 @@ struct SystemEdit {
     }
 
     static InputKind kind(const std::string& name) {
-        const auto it = std::ranges::find(kinds, name);
-        if (it == std::end(kinds))
+        const auto it = std::ranges::find(input_kind_names, name);
+        if (it == input_kind_names.end())
             throw InputError(fmt::format("'{}' is not a kind of connection", name),
                              "excitatory, inhibitory or modulatory");
-        return static_cast<InputKind>(it - std::begin(kinds));
+        return static_cast<InputKind>(it - input_kind_names.begin());
     }
 
     void place_new(const std::string& made) {
@@ -243,7 +237,7 @@ const std::vector<Operation<SystemEdit>>& system_operations() {
             return first;
         };
         const ValueType points = list(list(number()));
-        const ValueType kind = choice({std::begin(kinds), std::end(kinds)});
+        const ValueType kind = choice({input_kind_names.begin(), input_kind_names.end()});
         const Member id{"id", text(), "an id"}, any_id{"id", text(), "an id, or `system`"};
         const Member name{"name", text()};
         const Member made = optional("id", text(), "", "of what is made");
