@@ -36,14 +36,26 @@ inline bool reorders(unsigned number) {
     return (number >= 0x2028 && number <= 0x202e) || (number >= 0x2066 && number <= 0x2069);
 }
 
-/// Whether `text` has a control character, such as a line end or U+0085, or one that reorders it.
-inline bool has_control(std::string_view text) {
+/// Whether `f(sound, number)` holds for a character of a text; a byte that is not UTF-8 is not sound.
+template <class F>
+bool any_character(std::string_view text, F f) {
     while (!text.empty()) {
         const std::size_t length = utf8_length(text);
-        if (const auto c = character_number(text); length > 0 && (is_control(c) || reorders(c))) return true;
+        if (f(length > 0, character_number(text))) return true;
         text.remove_prefix(std::max<std::size_t>(length, 1));
     }
     return false;
+}
+/// Whether `text` has a control character, such as a line end or U+0085, or one that reorders it.
+inline bool has_control(std::string_view text) {
+    return any_character(text,
+                         [](bool sound, unsigned c) { return sound && (is_control(c) || reorders(c)); });
+}
+/// Whether a text has a control character that is no white space and that no text of a file has, such as ESC.
+inline bool has_odd_control(std::string_view text) {
+    return any_character(text, [](bool sound, unsigned c) {
+        return sound && is_control(c) && c != '\t' && c != '\n' && c != '\r';
+    });
 }
 
 /// `text` with its control characters, except line ends and tabs, the characters that reorder it, and its

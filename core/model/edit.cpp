@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/odd_control.h"
+#include "core/base/printable.h"
 #include "core/base/separated.h"
 #include "core/model/arrays.h"
 #include "core/model/build.h"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/utf8.h"
+#include "core/base/printable.h"
 
 namespace forage {
 namespace {
@@ -31,16 +31,7 @@ constexpr std::array<std::pair<std::string_view, RemoteCommand::Item>, 7> item_t
 
 /// Whether a terminal can show the text: UTF-8 without control characters.
 bool is_printable(std::string_view text) {
-    while (!text.empty()) {
-        const std::size_t n = utf8_length(text);
-        const auto byte = static_cast<unsigned char>(text[0]);
-        // U+0080 to U+009F are control characters, too.
-        const bool control = byte < 0x20 || byte == 0x7f ||
-                             (n == 2 && byte == 0xc2 && static_cast<unsigned char>(text[1]) < 0xa0);
-        if (n == 0 || control) return false;
-        text.remove_prefix(n);
-    }
-    return true;
+    return !any_character(text, [](bool sound, unsigned c) { return !sound || is_control(c); });
 }
 
 bool same_word(std::string_view a, std::string_view b) {

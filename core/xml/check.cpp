@@ -9,7 +9,7 @@
 
 #include "core/base/named_file.h"
 #include "core/base/number.h"
-#include "core/base/odd_control.h"
+#include "core/base/printable.h"
 #include "core/base/separated.h"
 #include "core/formula/formula.h"
 #include "core/model/names.h"

@@ -3,7 +3,6 @@
 #include <stdexcept>
 
 #include "core/base/exception_message.h"
-#include "core/base/odd_control.h"
 #include "core/base/shell_word.h"
 #include "tests/support/catch.h"
 
