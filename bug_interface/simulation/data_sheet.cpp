@@ -13,16 +13,6 @@
 namespace forage::bug {
 namespace {
 
-/// A number with at most `decimals` decimals.
-std::string rounded(double v, int decimals = 4) {
-    std::string out = fmt::format("{:.{}f}", v, decimals);
-    if (out.find('.') != std::string::npos) {
-        out.erase(out.find_last_not_of('0') + 1);
-        if (out.ends_with('.')) out.pop_back();
-    }
-    return out == "-0" ? "0" : out;
-}
-
 std::string degrees(double radians, int decimals = 1) {
     return rounded(radians * 180 / std::numbers::pi, decimals);
 }
@@ -180,6 +170,15 @@ std::string camera_section(const World& world, const RobotSensors& sensors) {
 }
 
 }  // namespace
+
+std::string rounded(double v, int decimals) {
+    std::string out = fmt::format("{:.{}f}", v, decimals);
+    if (out.find('.') != std::string::npos) {
+        out.erase(out.find_last_not_of('0') + 1);
+        if (out.ends_with('.')) out.pop_back();
+    }
+    return out == "-0" ? "0" : out;
+}
 
 std::string data_sheet(const World& world, std::size_t robot) {
     const RobotSensors& sensors = world.robot(robot).sensors;

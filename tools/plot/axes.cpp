@@ -69,10 +69,8 @@ void clip(Canvas& canvas, const Box& box) {
 }
 
 void draw_frame(Canvas& canvas, const Box& box, const Colour& colour) {
-    cairo_set_line_width(canvas.cairo(), 1);
-    canvas.colour(colour);
     cairo_rectangle(canvas.cairo(), box.x - 0.5, box.y - 0.5, box.width + 1, box.height + 1);
-    cairo_stroke(canvas.cairo());
+    canvas.stroke(colour);
 }
 
 std::vector<std::pair<double, std::string>> name_ticks(const std::vector<std::string>& names, double first) {

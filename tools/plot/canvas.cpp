@@ -128,18 +128,30 @@ void Canvas::dashes(double on, double off) {
     cairo_set_dash(c_, lengths, on > 0 ? 2 : 0, 0);
 }
 
+void Canvas::stroke(const Colour& c, double width, double alpha) {
+    colour(c, alpha);
+    cairo_set_line_width(c_, width);
+    cairo_stroke(c_);
+}
+
+void Canvas::circle(double x, double y, double radius) {
+    cairo_new_sub_path(c_);
+    cairo_arc(c_, x, y, radius, 0, 2 * M_PI);
+}
+
+void Canvas::segment(double x0, double y0, double x1, double y1) {
+    cairo_move_to(c_, x0, y0);
+    cairo_line_to(c_, x1, y1);
+}
+
 void Canvas::fill(double x, double y, double width, double height, const Colour& c) {
-    colour(c);
     cairo_rectangle(c_, x, y, width, height);
-    cairo_fill(c_);
+    fill(c);
 }
 
 void Canvas::line(double x0, double y0, double x1, double y1, const Colour& c, double width) {
-    colour(c);
-    cairo_set_line_width(c_, width);
-    cairo_move_to(c_, x0, y0);
-    cairo_line_to(c_, x1, y1);
-    cairo_stroke(c_);
+    segment(x0, y0, x1, y1);
+    stroke(c, width);
 }
 
 void Canvas::font(double size, bool bold) {

@@ -31,6 +31,12 @@ class Canvas {
     void colour(const Colour& c, double alpha = 1) { cairo_set_source_rgba(c_, c.r, c.g, c.b, alpha); }
     /// Draws lines with dashes of the length `on` and gaps of the length `off`, until both are set to 0.
     void dashes(double on, double off);
+    /// Draws the path of cairo(), and ends it.
+    void stroke(const Colour& c, double width = 1, double alpha = 1);
+    void fill(const Colour& c, double alpha = 1) { colour(c, alpha), cairo_fill(c_); }
+    /// Adds a circle, or a line, to the path.
+    void circle(double x, double y, double radius);
+    void segment(double x0, double y0, double x1, double y1);
     void fill(double x, double y, double width, double height, const Colour& c);
     void line(double x0, double y0, double x1, double y1, const Colour& c, double width = 1);
     /// Draws a text. `anchor` is 0 when the text starts at x, 0.5 when it is centred at x, 1 when it ends at

@@ -130,13 +130,10 @@ std::vector<std::string> lines_of(Canvas& canvas, const std::string& text, doubl
 }
 
 void draw(Canvas& canvas, const Node& n) {
-    cairo_t* c = canvas.cairo();
     if (n.outside || n.disabled) canvas.dashes(4, 3);
-    cairo_set_line_width(c, n.process ? 2.5 : 1);
     canvas.fill(n.box.x, n.box.y, n.box.width, n.box.height, n.outside ? Colour{0.96, 0.96, 0.96} : white);
-    canvas.colour(n.outside ? grey : black);
-    cairo_rectangle(c, n.box.x, n.box.y, n.box.width, n.box.height);
-    cairo_stroke(c);
+    cairo_rectangle(canvas.cairo(), n.box.x, n.box.y, n.box.width, n.box.height);
+    canvas.stroke(n.outside ? grey : black, n.process ? 2.5 : 1);
     canvas.dashes(0, 0);
     auto lines = lines_of(canvas, n.name, n.box.width - 6);
     lines.resize(std::min(lines.size(), static_cast<std::size_t>(std::max(1.0, n.box.height / 14 - 1))));
@@ -154,11 +151,9 @@ void draw(Canvas& canvas, const Node& n) {
 
 void draw(Canvas& canvas, const Edge& e) {
     cairo_t* c = canvas.cairo();
-    canvas.colour(colour_of(e.kind));
-    cairo_set_line_width(c, 1.3);
     cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
     for (const auto& p : e.points) cairo_line_to(c, p.x, p.y);
-    cairo_stroke(c);
+    canvas.stroke(colour_of(e.kind), 1.3);
     const Point2 tip = e.points.back(), before = e.points[e.points.size() - 2];
     const double angle = std::atan2(tip.y - before.y, tip.x - before.x);
     cairo_move_to(c, tip.x, tip.y);
@@ -521,10 +516,8 @@ Picture diagram(const model::System& system, const std::string& title) {
                 for (std::size_t i = 0; i < all.size(); ++i) {
                     cairo_save(canvas.cairo());
                     cairo_translate(canvas.cairo(), places[i].x, places[i].y);
-                    cairo_set_line_width(canvas.cairo(), 1);
-                    canvas.colour(pale);
                     cairo_rectangle(canvas.cairo(), 0.5, 0.5, all[i].width - 1, all[i].height - 1);
-                    cairo_stroke(canvas.cairo());
+                    canvas.stroke(pale);
                     all[i].draw(canvas);
                     cairo_restore(canvas.cairo());
                 }

@@ -33,13 +33,12 @@ void draw_interval(Canvas& canvas, const Axes& axes, const LinesPlot::Line& line
         return;
     }
     cairo_t* c = canvas.cairo();
-    canvas.colour(colour, 0.2);
     for (auto from = line.points.begin(); from != line.points.end(); ++from) {  // a band up to each gap
         const auto gap = std::find_if(from, line.points.end(), [](const auto& p) { return !p.y; });
         for (auto p = from; p != gap; ++p) cairo_line_to(c, axes.px(p->x), axes.py(p->y->high));
         for (auto p = gap; p != from; --p) cairo_line_to(c, axes.px((p - 1)->x), axes.py((p - 1)->y->low));
         cairo_close_path(c);
-        cairo_fill(c);
+        canvas.fill(colour, 0.2);
         if ((from = gap) == line.points.end()) break;
     }
 }
@@ -47,8 +46,6 @@ void draw_interval(Canvas& canvas, const Axes& axes, const LinesPlot::Line& line
 void draw_line(Canvas& canvas, const Axes& axes, const LinesPlot::Line& line, std::optional<double> gap,
                const Colour& colour) {
     cairo_t* c = canvas.cairo();
-    canvas.colour(colour);
-    cairo_set_line_width(c, 1.8);
     bool pen_down = false;
     double before = 0;
     for (const auto& p : line.points) {
@@ -57,12 +54,12 @@ void draw_line(Canvas& canvas, const Axes& axes, const LinesPlot::Line& line, st
         if (p.y) (pen_down ? cairo_line_to : cairo_move_to)(c, axes.px(p.x), axes.py(p.y->mean));
         pen_down = p.y.has_value();
     }
-    cairo_stroke(c);
+    canvas.stroke(colour, 1.8);
     if (line.points.size() > max_bars) return;
     for (const auto& p : line.points) {
         if (!p.y) continue;
-        cairo_arc(c, axes.px(p.x), axes.py(p.y->mean), 3.4, 0, 2 * M_PI);
-        cairo_fill(c);
+        canvas.circle(axes.px(p.x), axes.py(p.y->mean), 3.4);
+        canvas.fill(colour);
     }
 }
 

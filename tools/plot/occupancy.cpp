@@ -103,19 +103,16 @@ void draw_shares(Canvas& canvas, const std::vector<double>& crossed, const Box& 
             const double v = crossed[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
                                      static_cast<std::size_t>(column)];
             if (v == 0) continue;
-            canvas.colour(scale(v), 0.85);
             cairo_rectangle(canvas.cairo(), box.x + box.width * column / columns,
                             box.y + box.height * row / rows, box.width / columns, box.height / rows);
-            cairo_fill(canvas.cairo());
+            canvas.fill(scale(v), 0.85);
         }
 }
 
 void draw_path(Canvas& canvas, const WorldMap& map, const Points& path) {
     for (const bool halo : {true, false}) {
-        canvas.colour(halo ? black : white);
-        cairo_set_line_width(canvas.cairo(), halo ? 4.2 : 2.4);
         for (const auto& p : path) cairo_line_to(canvas.cairo(), map.px(p.x()), map.py(p.y()));
-        cairo_stroke(canvas.cairo());
+        canvas.stroke(halo ? black : white, halo ? 4.2 : 2.4);
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "bug_interface/simulation/data_sheet.h"
 #include "bug_interface/simulation/world_queries.h"
 #include "tools/plot/axes.h"
 #include "tools/plot/world_map.h"
@@ -18,12 +19,7 @@ constexpr Colour body_colour{0.80, 0.84, 0.90}, body_edge{0.25, 0.32, 0.45}, cam
     gripper_ray{0.35, 0.60, 0.30};
 constexpr double small = 11;
 
-std::string short_number(double v, int decimals = 2) {
-    std::string out = fmt::format("{:.{}f}", v, decimals);
-    out.erase(out.find_last_not_of('0') + 1);
-    if (out.ends_with('.')) out.pop_back();
-    return out == "-0" ? "0" : out;
-}
+std::string short_number(double v) { return bug::rounded(v, 2); }
 
 Colour colour_of(const bug::RangeSensor& s) {
     return s.name == "laser_target" ? light_ray : s.name == "laser_gripper" ? gripper_ray : near_ray;
@@ -35,22 +31,13 @@ std::string name_of(const bug::RangeSensor& s) {
                                        : s.name;
 }
 
-void circle(Canvas& canvas, double x, double y, double radius) {
-    cairo_new_sub_path(canvas.cairo());
-    cairo_arc(canvas.cairo(), x, y, radius, 0, 2 * M_PI);
-}
-
 /// Draws the robot's disc, with its heading upwards.
 void draw_disc(Canvas& canvas, double x, double y, double radius) {
-    cairo_t* c = canvas.cairo();
     canvas.colour(body_colour);
-    circle(canvas, x, y, radius);
-    cairo_fill_preserve(c);
-    canvas.colour(body_edge);
-    cairo_set_line_width(c, 1.5);
-    cairo_stroke(c);
-    cairo_move_to(c, x, y), cairo_line_to(c, x, y - radius);
-    cairo_stroke(c);
+    canvas.circle(x, y, radius);
+    cairo_fill_preserve(canvas.cairo());
+    canvas.stroke(body_edge, 1.5);
+    canvas.line(x, y, x, y - radius, body_edge, 1.5);
 }
 
 void draw_title(Canvas& canvas, const Box& box, const std::string& title, const std::string& text) {
@@ -60,7 +47,6 @@ void draw_title(Canvas& canvas, const Box& box, const std::string& title, const 
 
 /// The rays from above. Every cell has its number and its angle.
 void draw_rays(Canvas& canvas, const Box& box, const bug::RobotSensors& sensors, double radius) {
-    cairo_t* c = canvas.cairo();
     const double x = box.x + box.width / 2, y = box.y + box.height / 2;
     double reach = 0.5;
     const bug::RangeSensor* widest = nullptr;
@@ -71,10 +57,9 @@ void draw_rays(Canvas& canvas, const Box& box, const bug::RobotSensors& sensors,
         return std::pair(x - r * std::sin(angle), y - r * std::cos(angle));
     };
     for (double r = 1; r <= reach; ++r) {
-        canvas.colour(pale);
         canvas.dashes(4, 4);
-        circle(canvas, x, y, r * scale);
-        cairo_stroke(c);
+        canvas.circle(x, y, r * scale);
+        canvas.stroke(pale, 2);
         canvas.dashes(0, 0);
         canvas.text(x, y + r * scale - 4, short_number(r) + " m", small, 0.5, grey);
     }
@@ -82,22 +67,20 @@ void draw_rays(Canvas& canvas, const Box& box, const bug::RobotSensors& sensors,
         for (const auto& s : sensors.range_sensors()) {
             if ((s.name == "laser_target") != (width > 2)) continue;
             const Eigen::Vector3d at = (sensors.link_pose() * s.pose).translation();
-            canvas.colour(colour_of(s));
-            cairo_set_line_width(c, width);
             for (int k = 0; k < s.rays; ++k) {
                 const auto [x0, y0] = point(s.cell_angle(k), s.min_range * scale);
                 const auto [x1, y1] = point(s.cell_angle(k), s.max_range * scale);
-                cairo_move_to(c, x0 - at.y() * scale, y0 - at.x() * scale);
-                cairo_line_to(c, x1 - at.y() * scale, y1 - at.x() * scale);
+                canvas.segment(x0 - at.y() * scale, y0 - at.x() * scale, x1 - at.y() * scale,
+                               y1 - at.x() * scale);
             }
-            cairo_stroke(c);
+            canvas.stroke(colour_of(s), width);
         }
     draw_disc(canvas, x, y, radius * scale);
     double legend = box.y + box.height + 4;
     for (const auto& s : sensors.range_sensors()) {
         canvas.line(box.x, legend - 4, box.x + 24, legend - 4, colour_of(s), 3);
         canvas.text(box.x + 32, legend,
-                    fmt::format("{}: {} to {} m", name_of(s), short_number(s.min_range, 4),
+                    fmt::format("{}: {} to {} m", name_of(s), bug::rounded(s.min_range, 4),
                                 short_number(s.max_range)),
                     small);
         legend += 16;
@@ -115,9 +98,8 @@ void draw_rays(Canvas& canvas, const Box& box, const bug::RobotSensors& sensors,
 void draw_command(Canvas& canvas, double x, double y, const bug::MotorCommand& command, double length) {
     cairo_t* c = canvas.cairo();
     if (command.forward == 0 && command.turn == 0) {
-        circle(canvas, x, y, 2.5);
-        cairo_fill(c);
-        return;
+        canvas.circle(x, y, 2.5);
+        return canvas.fill(body_edge);
     }
     constexpr int steps = 24;
     double angle = M_PI / 2;
@@ -139,7 +121,7 @@ void draw_command(Canvas& canvas, double x, double y, const bug::MotorCommand& c
         cairo_move_to(c, at_x, at_y);
         cairo_rel_line_to(c, 5 * std::cos(direction + side), -5 * std::sin(direction + side));
     }
-    cairo_stroke(c);
+    canvas.stroke(body_edge, 1.4);
 }
 
 void draw_motor(Canvas& canvas, const Box& box) {
@@ -152,12 +134,8 @@ void draw_motor(Canvas& canvas, const Box& box) {
             cells[static_cast<std::size_t>(row * side + column)] = 1;
             const auto command = bug::decode_motor(cells, side, side, 1, 1);
             const double x = box.x + column * size, y = box.y + row * size;
-            canvas.colour(pale);
-            cairo_set_line_width(c, 1);
             cairo_rectangle(c, x, y, size, size);
-            cairo_stroke(c);
-            canvas.colour(body_edge);
-            cairo_set_line_width(c, 1.4);
+            canvas.stroke(pale);
             draw_command(canvas, x + size / 2, y + size / 2, command, 0.62 * size);
             if (column == 0) {
                 canvas.text(box.x - 6, y + size / 2 + 4, short_number(command.forward), small, 1);
@@ -211,23 +189,18 @@ void draw_side(Canvas& canvas, const Box& box, const bug::World& world, std::siz
     const auto& collisions = bug::robot_link(*bug::find_model(world.description(), r.name))->collisions;
     const double height = collisions.empty() ? 0.2 : collisions.front().shape.size.z();
     canvas.fill(px(-r.body.radius), py(height), 2 * r.body.radius * scale, height * scale, body_colour);
-    canvas.colour(body_edge);
-    cairo_set_line_width(c, 1.5);
     cairo_rectangle(c, px(-r.body.radius), py(height), 2 * r.body.radius * scale, height * scale);
-    cairo_stroke(c);
+    canvas.stroke(body_edge, 1.5);
     canvas.line(box.x, floor, px(right_end), floor, black, 1.5);
     if (const auto& s = sensors.camera_sensor(); s && !seen.left.empty()) {
         const Eigen::Vector3d eye = (sensors.link_pose() * s->pose).translation();
-        canvas.colour(camera_colour, 0.18);
-        cairo_move_to(c, px(eye.x()), py(eye.z()));
-        cairo_line_to(c, px(seen.left.front().x()), floor);
+        canvas.segment(px(eye.x()), py(eye.z()), px(seen.left.front().x()), floor);
         cairo_line_to(c, px(std::min(seen.far, right_end)), floor);
         cairo_close_path(c);
-        cairo_fill(c);
-        canvas.colour(camera_colour);
-        circle(canvas, px(eye.x()), py(eye.z()), 3.5);
-        cairo_fill(c);
-        canvas.text(px(eye.x()) - 6, py(eye.z()) - 7, fmt::format("camera {} m", short_number(eye.z(), 3)),
+        canvas.fill(camera_colour, 0.18);
+        canvas.circle(px(eye.x()), py(eye.z()), 3.5);
+        canvas.fill(camera_colour);
+        canvas.text(px(eye.x()) - 6, py(eye.z()) - 7, fmt::format("camera {} m", bug::rounded(eye.z(), 3)),
                     small, 1, camera_colour);
         for (const double x : {seen.left.front().x(), seen.far})
             if (x < right_end) {
@@ -242,7 +215,7 @@ void draw_side(Canvas& canvas, const Box& box, const bug::World& world, std::siz
         const double end = std::min(at.x() + s.max_range, right_end);
         canvas.line(px(at.x() + s.min_range), py(at.z()), px(end), py(at.z()), colour_of(s), 2.2);
         canvas.text(px(right_end), py(at.z()) - 4,
-                    fmt::format("{} {} m", name_of(s), short_number(at.z(), 3)), small, 1, black);
+                    fmt::format("{} {} m", name_of(s), bug::rounded(at.z(), 3)), small, 1, black);
     }
 }
 
@@ -259,13 +232,12 @@ void draw_footprint(Canvas& canvas, const Box& box, const Footprint& seen, doubl
     clip(canvas, box);
     draw_disc(canvas, x0, y0, radius * scale);
     cairo_restore(c);
-    canvas.colour(camera_colour, 0.18);
-    cairo_move_to(c, px(seen.left.front().y()), py(seen.left.front().x()));
-    cairo_line_to(c, px(seen.left.back().y()), py(seen.far));
+    canvas.segment(px(seen.left.front().y()), py(seen.left.front().x()), px(seen.left.back().y()),
+                   py(seen.far));
     cairo_line_to(c, px(seen.right.back().y()), py(seen.far));
     cairo_line_to(c, px(seen.right.front().y()), py(seen.right.front().x()));
     cairo_close_path(c);
-    cairo_fill(c);
+    canvas.fill(camera_colour, 0.18);
     double last = y0;
     for (std::size_t i = 0; i < seen.rows.size(); ++i) {
         const double y = py(seen.left[i].x());

@@ -67,9 +67,7 @@ void draw_marks(Canvas& canvas, const TimePlot& plot, const Axes& axes, const Co
 
 void draw_curve(Canvas& canvas, const Axes& axes, const Curve& curve, const Colour& colour) {
     cairo_t* c = canvas.cairo();
-    cairo_set_line_width(c, 1.6);
     cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
-    canvas.colour(colour);
     bool pen_down = false;
     const auto to = [&](double x, double y) {
         pen_down ? cairo_line_to(c, axes.px(x), axes.py(y)) : cairo_move_to(c, axes.px(x), axes.py(y));
@@ -87,12 +85,10 @@ void draw_curve(Canvas& canvas, const Axes& axes, const Curve& curve, const Colo
             to(middle, b.low), to(middle, b.high);
         to(b.last, b.end);
     }
-    cairo_stroke(c);
+    canvas.stroke(colour, 1.6);
     if (curve.bins().size() > 1) return;
-    for (const auto& b : curve.bins()) {
-        cairo_arc(c, axes.px(b.first), axes.py(b.low), 3, 0, 2 * M_PI);
-        cairo_fill(c);
-    }
+    for (const auto& b : curve.bins())
+        canvas.circle(axes.px(b.first), axes.py(b.low), 3), canvas.fill(colour);
 }
 
 Picture lines(const TimePlot& plot) {

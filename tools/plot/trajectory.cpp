@@ -73,31 +73,26 @@ class Drawing {
             paths_.size() > 1 ? static_cast<double>(i) / static_cast<double>(paths_.size() - 1) : 1);
         const double width = paths_.size() > 60 ? 1 : 1.6;
         for (const bool halo : {true, false}) {  // a dark outline keeps paths visible on bright patches
-            canvas_->colour(halo ? black : colour);
-            cairo_set_line_width(c(), halo ? width + 1.4 : width);
             cairo_move_to(c(), px(points[0].x()), py(points[0].y()));
             for (const auto& p : points) cairo_line_to(c(), px(p.x()), py(p.y()));
-            cairo_stroke(c());
+            canvas_->stroke(halo ? black : colour, halo ? width + 1.4 : width);
         }
         draw_end(px(points.back().x()), py(points.back().y()), end_of(paths_[i]), colour);
     }
 
     void draw_end(double x, double y, End end, const Colour& colour) {
         for (const bool halo : {true, false}) {
-            canvas_->colour(halo ? black : colour);
+            const Colour& shown = halo ? black : colour;
             if (end == End::reached) {
-                cairo_arc(c(), x, y, halo ? 5 : 3.8, 0, 2 * M_PI);
-                cairo_fill(c());
-            } else if (end == End::unfinished) {
-                cairo_set_line_width(c(), halo ? 4.5 : 2.2);
-                cairo_rectangle(c(), x - 4, y - 4, 8, 8);
-                cairo_stroke(c());
-            } else {
-                cairo_set_line_width(c(), halo ? 4.5 : 2.2);
-                cairo_move_to(c(), x - 5, y - 5), cairo_line_to(c(), x + 5, y + 5);
-                cairo_move_to(c(), x - 5, y + 5), cairo_line_to(c(), x + 5, y - 5);
-                cairo_stroke(c());
+                canvas_->circle(x, y, halo ? 5 : 3.8);
+                canvas_->fill(shown);
+                continue;
             }
+            if (end == End::unfinished)
+                cairo_rectangle(c(), x - 4, y - 4, 8, 8);
+            else
+                canvas_->segment(x - 5, y - 5, x + 5, y + 5), canvas_->segment(x - 5, y + 5, x + 5, y - 5);
+            canvas_->stroke(shown, halo ? 4.5 : 2.2);
         }
     }
 
@@ -120,25 +115,21 @@ class Drawing {
                       [&, e = end] { draw_end(x + 7, y, e, path_colour(e, 1)); });
         if (paths_.size() > 1) {
             for (const End end : {End::reached, End::missed})
-                for (int i = 0; i < 60; ++i) {
-                    canvas_->colour(path_colour(end, i / 59.0));
-                    cairo_rectangle(c(), x + 2 * i, y - (end == End::reached ? 8 : 0), 2.5, 8);
-                    cairo_fill(c());
-                }
+                for (int i = 0; i < 60; ++i)
+                    canvas_->fill(x + 2 * i, y - (end == End::reached ? 8 : 0), 2.5, 8,
+                                  path_colour(end, i / 59.0));
             canvas_->text(x, y + 24, fmt::format("trial {}", paths_.front().trial), 12);
             canvas_->text(x + 120, y + 24, fmt::format("{}", paths_.back().trial), 12, 1);
             y += 54;
         }
         const auto outline = [&](double dash, auto shape) {
             canvas_->dashes(dash, dash);
-            cairo_set_line_width(c(), 1.2);
-            cairo_set_source_rgb(c(), 0.3, 0.3, 0.3);
             shape();
-            cairo_stroke(c());
+            canvas_->stroke({0.3, 0.3, 0.3}, 1.2);
             canvas_->dashes(0, 0);
         };
         if (!world_.targets().empty())
-            entry("target", [&] { outline(2, [&] { cairo_arc(c(), x + 7, y, 6, 0, 2 * M_PI); }); });
+            entry("target", [&] { outline(2, [&] { canvas_->circle(x + 7, y, 6); }); });
         if (world_.reset_plan())
             entry("bounds", [&] { outline(3, [&] { cairo_rectangle(c(), x + 1, y - 6, 12, 12); }); });
     }

@@ -39,14 +39,12 @@ void draw_field(Canvas& canvas, const WiringPlot& plot, std::span<const double> 
             canvas.fill(box.x + x * cell, box.y + y * cell, cell, cell,
                         pre < 0 ? white : scale(strengths[static_cast<std::size_t>(pre)]));
         }
-    cairo_t* c = canvas.cairo();  // one path for all lines, as files grow with the number of paths
+    // One path for all lines, as files grow with the number of paths.
     for (int x = 1; x < source.width; ++x)
-        cairo_move_to(c, box.x + x * cell, box.y), cairo_line_to(c, box.x + x * cell, box.bottom());
+        canvas.segment(box.x + x * cell, box.y, box.x + x * cell, box.bottom());
     for (int y = 1; y < source.height; ++y)
-        cairo_move_to(c, box.x, box.y + y * cell), cairo_line_to(c, box.right(), box.y + y * cell);
-    canvas.colour(white);
-    cairo_set_line_width(c, 1);
-    cairo_stroke(c);
+        canvas.segment(box.x, box.y + y * cell, box.right(), box.y + y * cell);
+    canvas.stroke(white);
     draw_frame(canvas, box, grey);
 }
 

@@ -89,11 +89,9 @@ std::vector<Entry> entries_of(const bug::World& world) {
     const auto ring = [](const Colour& colour, double on, double off) {
         return [=](Canvas& canvas, double x, double y) {
             canvas.fill(x, y - 11, 18, 14, {0.5, 0.5, 0.5});  // the colour of the ground
-            canvas.colour(colour);
             canvas.dashes(on, off);
-            cairo_set_line_width(canvas.cairo(), 1.5);
-            cairo_arc(canvas.cairo(), x + 9, y - 4, 5, 0, 2 * M_PI);
-            cairo_stroke(canvas.cairo());
+            canvas.circle(x + 9, y - 4, 5);
+            canvas.stroke(colour, 1.5);
             canvas.dashes(0, 0);
         };
     };

@@ -155,11 +155,8 @@ void WorldMap::draw_solid(Canvas& canvas, const bug::DrawnSolid& d) const {
         cairo_arc(c, 0, 0, w / 2, 0, 2 * M_PI);
     cairo_set_source_rgb(c, d.colour[0], d.colour[1], d.colour[2]);
     cairo_fill_preserve(c);
-    if (d.solid.size.z() > 0.02) {  // an outline, as the floor may have the same colour
-        cairo_set_source_rgba(c, 0, 0, 0, 0.6);
-        cairo_set_line_width(c, 0.8);
-        cairo_stroke(c);
-    }
+    if (d.solid.size.z() > 0.02)  // an outline, as the floor may have the same colour
+        canvas.stroke(black, 0.8, 0.6);
     cairo_new_path(c);
     cairo_restore(c);
 }
@@ -169,21 +166,16 @@ namespace {
 /// Draws the homes of the teams and the sites of the resources.
 void draw_homes(Canvas& canvas, const bug::World& world, const WorldMap& map) {
     if (!has_homes(world)) return;
-    cairo_t* c = canvas.cairo();
+    canvas.dashes(2, 4);
     for (const Pose2& at : world.game().homes()) {
-        canvas.colour(white, 0.8);
-        canvas.dashes(2, 4);
-        cairo_set_line_width(c, 1);
-        cairo_arc(c, map.px(at.x), map.py(at.y), bug::Game::home_radius * map.scale(), 0, 2 * M_PI);
-        cairo_stroke(c);
+        canvas.circle(map.px(at.x), map.py(at.y), bug::Game::home_radius * map.scale());
+        canvas.stroke(white, 1, 0.8);
     }
+    canvas.dashes(2, 3);
     if (const auto& game = world.description().game)
         for (const bug::GameSite& site : game->sites) {
-            canvas.colour(site_colour, 0.9);
-            canvas.dashes(2, 3);
-            cairo_set_line_width(c, 1.2);
-            cairo_arc(c, map.px(site.x), map.py(site.y), 0.5 * map.scale(), 0, 2 * M_PI);
-            cairo_stroke(c);
+            canvas.circle(map.px(site.x), map.py(site.y), 0.5 * map.scale());
+            canvas.stroke(site_colour, 1.2, 0.9);
         }
     canvas.dashes(0, 0);
     draw_home_names(canvas, world, map);
@@ -197,41 +189,33 @@ void WorldMap::draw_marks(Canvas& canvas) const {
     const auto plan = world_.reset_plan();
     if (!plan) return;
     canvas.dashes(6, 5);
-    cairo_set_line_width(c, 1);
-    canvas.colour(bounds_colour);
     cairo_rectangle(c, px(plan->bounds.min().x()), py(plan->bounds.max().y()),
                     plan->bounds.sizes().x() * scale_, plan->bounds.sizes().y() * scale_);
-    cairo_stroke(c);
+    canvas.stroke(bounds_colour);
     canvas.dashes(0, 0);
     for (const auto& s : plan->starts) {  // an arrow in the direction of the start pose
-        cairo_set_source_rgb(c, 0.1, 0.1, 0.1);
-        cairo_set_line_width(c, 2);
         const double x = px(s.x), y = py(s.y), l = 0.17 * scale_;
-        cairo_move_to(c, x - l * std::cos(s.yaw), y + l * std::sin(s.yaw));
-        cairo_line_to(c, x + l * std::cos(s.yaw), y - l * std::sin(s.yaw));
+        const double ahead = l * std::cos(s.yaw), up = l * std::sin(s.yaw);
+        canvas.segment(x - ahead, y + up, x + ahead, y - up);
         for (const double turn : {2.5, -2.5}) {
-            cairo_move_to(c, x + l * std::cos(s.yaw), y - l * std::sin(s.yaw));
+            cairo_move_to(c, x + ahead, y - up);
             cairo_rel_line_to(c, 0.7 * l * std::cos(s.yaw + turn), -0.7 * l * std::sin(s.yaw + turn));
         }
-        cairo_stroke(c);
+        canvas.stroke({0.1, 0.1, 0.1}, 2);
     }
 }
 
 void WorldMap::draw_targets(Canvas& canvas) const {
-    cairo_t* c = canvas.cairo();
+    canvas.dashes(3, 3);
     for (const auto& t : world_.targets()) {
-        cairo_set_source_rgb(c, 1, 1, 1);
-        cairo_set_line_width(c, 1.5);
-        canvas.dashes(3, 3);
-        cairo_arc(c, px(t.x()), py(t.y()), world_.rules().reach * scale_, 0, 2 * M_PI);
-        cairo_stroke(c);
-        canvas.dashes(0, 0);
+        canvas.circle(px(t.x()), py(t.y()), world_.rules().reach * scale_);
+        canvas.stroke(white, 1.5);
     }
+    canvas.dashes(0, 0);
 }
 
 /// Draws the rays that meet something: proximity rays to obstacles, light rays to the light.
 void WorldMap::draw_rays(Canvas& canvas, std::size_t robot) const {
-    cairo_t* c = canvas.cairo();
     const auto& pose = world_.pose(robot);
     const auto& seen = world_.robot(robot).sensors.snapshot();
     for (const bug::RangeSensor& sensor : world_.robot(robot).sensors.range_sensors()) {
@@ -239,8 +223,6 @@ void WorldMap::draw_rays(Canvas& canvas, std::size_t robot) const {
         const auto& cells = light ? seen.target : seen.proximity;
         if ((!light && sensor.name != "laser") || cells.size() != static_cast<std::size_t>(sensor.rays))
             continue;
-        canvas.colour(light ? light_ray : near_ray, 0.9);
-        cairo_set_line_width(c, light ? 1.8 : 1.1);
         const double nothing =
             std::max(0.03, 5 * sensor.noise / sensor.max_range);  // the noise of a ray that meets nothing
         for (std::size_t k = 0; k < cells.size(); ++k) {
@@ -252,14 +234,13 @@ void WorldMap::draw_rays(Canvas& canvas, std::size_t robot) const {
             };
             const auto [x0, y0] = to(sensor.min_range);
             const auto [x1, y1] = to(range);
-            cairo_move_to(c, x0, y0), cairo_line_to(c, x1, y1);
+            canvas.segment(x0, y0, x1, y1);
         }
-        cairo_stroke(c);
+        canvas.stroke(light ? light_ray : near_ray, light ? 1.8 : 1.1, 0.9);
     }
 }
 
 void WorldMap::draw_robot(Canvas& canvas, std::size_t robot, bool rays) const {
-    cairo_t* c = canvas.cairo();
     if (rays) draw_rays(canvas, robot);
     const bug::BodyPoses& poses = world_.body_poses();
     for (const bool gripper : {true, false})
@@ -272,15 +253,10 @@ void WorldMap::draw_robot(Canvas& canvas, std::size_t robot, bool rays) const {
     const auto& pose = world_.pose(robot);
     const double r = world_.robot(robot).body.radius * scale_, x = px(pose.x), y = py(pose.y);
     for (const double out : {1.2, 0.0}) {  // an outline makes the robot visible on patches of its colour
-        canvas.colour(out > 0 ? white : black);
-        cairo_set_line_width(c, 1.2);
-        cairo_arc(c, x, y, r + out, 0, 2 * M_PI);
-        cairo_stroke(c);
+        canvas.circle(x, y, r + out);
+        canvas.stroke(out > 0 ? white : black, 1.2);
     }
-    canvas.colour(white);
-    cairo_set_line_width(c, std::max(1.5, r / 5));
-    cairo_move_to(c, x, y), cairo_line_to(c, x + r * std::cos(pose.yaw), y - r * std::sin(pose.yaw));
-    cairo_stroke(c);
+    canvas.line(x, y, x + r * std::cos(pose.yaw), y - r * std::sin(pose.yaw), white, std::max(1.5, r / 5));
 }
 
 Picture world_plot(const bug::World& world, const std::string& title) {
