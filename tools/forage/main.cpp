@@ -3,6 +3,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <functional>
+#include <map>
+#include <memory>
 #include <string_view>
 
 #include <CLI/CLI.hpp>
@@ -58,35 +61,29 @@ int program(int argc, char** argv) {
     app.require_subcommand(1);
     app.get_formatter()->column_width(34);
 
-    RunOptions run_options;
-    ExperimentOptions experiment_options;
-    ConvertOptions convert_options;
-    PlotOptions plot_options;
+    std::map<std::string, std::function<int()>> commands;
+    const auto add = [&]<class Options>(void (*declare)(CLI::App&, Options&), auto execute) {
+        const auto options = std::make_shared<Options>();
+        declare(app, *options);
+        const auto all = app.get_subcommands([](const CLI::App*) { return true; });
+        commands[all.back()->get_name()] = [=] { return execute(*options); };
+    };
+    add(add_run, [&](RunOptions& o) { return o.spec.arguments.assign(argv + 1, argv + argc), run(o); });
+    add(add_explain, run);
+    add(add_resume, [](const ResumeOptions& o) { return resume(o, parse_run); });
+    add(add_rerun, [](const RerunOptions& o) { return rerun(o, parse_run); });
+    add(add_experiment, experiment);
+    add(add_tutorial, tutorial);
+    add(add_plot, plot);
+    add(add_convert, convert);
+    add(add_edit, edit);
+    add(add_new, create);
+    add(add_studio, [&](const StudioCommand&) { return studio(argv); });
+    add(add_build_plugin, build_plugin);
+    add(add_trust, trust);
     forage::RunInput check_input;
     DescribeOptions describe_options;
     std::string type;
-    add_run(app, run_options);
-    RunOptions explain_options;
-    add_explain(app, explain_options);
-    ResumeOptions resume_options;
-    add_resume(app, resume_options);
-    RerunOptions rerun_options;
-    add_rerun(app, rerun_options);
-    add_experiment(app, experiment_options);
-    TutorialOptions tutorial_options;
-    add_tutorial(app, tutorial_options);
-    add_plot(app, plot_options);
-    add_convert(app, convert_options);
-    EditOptions edit_options;
-    add_edit(app, edit_options);
-    BuildPluginOptions build_options;
-    NewOptions new_options;
-    add_new(app, new_options);
-    StudioCommand studio_options;
-    add_studio(app, studio_options);
-    add_build_plugin(app, build_options);
-    TrustOptions trust_options;
-    add_trust(app, trust_options);
     auto& check_command =
         *app.add_subcommand("check", "Check a system (and a world) and report all mistakes");
     add_input(check_command, check_input);
@@ -97,12 +94,10 @@ int program(int argc, char** argv) {
         "  forage describe systems/reactive_foraging.iqr\n"
         "  forage describe systems/reactive_foraging.iqr --format latex > reactive_foraging.tex");
     add_input(describe_command, describe_options.input);
-    describe_command
-        .add_option("--format", describe_options.format,
-                    "text; for papers: markdown or latex (tables), dot (a graph for Graphviz); for programs: "
-                    "json [text]")
-        ->check(one_of({"text", "markdown", "latex", "dot", "json"}))
-        ->option_text("FORMAT");
+    add_value(describe_command, "--format", describe_options.format, "FORMAT",
+              "text; for papers: markdown or latex (tables), dot (a graph for Graphviz); for programs: "
+              "json [text]")
+        ->check(one_of({"text", "markdown", "latex", "dot", "json"}));
     for (const char* format : {"markdown", "latex", "dot", "json"})
         describe_command.add_flag_callback(
             std::string("--") + format, [&, format] { describe_options.format = format; },
@@ -116,28 +111,23 @@ int program(int argc, char** argv) {
         "Example:\n"
         "  forage world systems/worlds/basic_arena.world -o forage-out/basic_arena.png\n"
         "  forage world systems/worlds/basic_arena.world --robot Bug -o forage-out/bug.png");
-    world_command.add_option("FILE", world_options.file, "World file (.world)")->required()->option_text(" ");
-    world_command
-        .add_option("-o,--output", world_options.picture,
-                    "Picture (.png, .svg or .pdf) [FILE's or ROBOT's name with .png]")
-        ->check(named("file"))
-        ->option_text("PICTURE");
-    world_command
-        .add_option(
-            "--robot", world_options.robot,
-            "Print and draw the data sheet of this robot: what every cell of its motors and sensors means")
-        ->option_text("ROBOT");
+    add_value(world_command, "FILE", world_options.file, " ", "World file (.world)")->required();
+    add_value(world_command, "-o,--output", world_options.picture, "PICTURE",
+              "Picture (.png, .svg or .pdf) [FILE's or ROBOT's name with .png]")
+        ->check(named("file"));
+    add_value(world_command, "--robot", world_options.robot, "ROBOT",
+              "Print and draw the data sheet of this robot: what every cell of its motors and sensors means");
     world_command.add_flag("--game", world_options.game, "With the robotics challenge's resources");
     std::string directory = "forage-out";
     auto& view_command =
         *app.add_subcommand("view", "Write a page, index.html, with the pictures and tables of results");
     view_command.footer("Example:\n  forage view forage-out");
-    view_command.add_option("DIR", directory, "Directory of results [forage-out]")->option_text(" ");
+    add_value(view_command, "DIR", directory, " ", "Directory of results [forage-out]");
     auto& types_command = *app.add_subcommand(
         "types",
         "List the neuron, synapse and module types, or describe one, or those that a system declares");
     types_command.footer("Example:\n  forage types neuronLinearThreshold\n  forage types model.iqr");
-    types_command.add_option("NAME", type, "The type to describe, or a system file (.iqr)")->option_text(" ");
+    add_value(types_command, "NAME", type, " ", "The type to describe, or a system file (.iqr)");
     auto& schema_command =
         *app.add_subcommand("schema", "Print a RELAX NG schema of system files, for editors");
     schema_command.footer("Example:\n  forage schema > iqr.rng");
@@ -151,10 +141,9 @@ int program(int argc, char** argv) {
         *app.add_subcommand("completion", "Print a script that completes command lines");
     completion_command.footer(
         "Example:\n  forage completion bash > ~/.local/share/bash-completion/completions/forage");
-    completion_command.add_option("SHELL", shell, "bash, zsh or fish")
+    add_value(completion_command, "SHELL", shell, " ", "bash, zsh or fish")
         ->required()
-        ->check(one_of({"bash", "zsh", "fish"}))
-        ->option_text(" ");
+        ->check(one_of({"bash", "zsh", "fish"}));
     app.add_subcommand("man", "Print the manual page")
         ->footer("Example:\n  forage man > forage.1; man ./forage.1");
     std::vector<std::string> plugins;
@@ -180,28 +169,14 @@ int program(int argc, char** argv) {
         return bad_input;
     }
     try {
-        if (app.got_subcommand("run")) {
-            run_options.spec.arguments.assign(argv + 1, argv + argc);
-            return run(run_options);
-        }
-        if (app.got_subcommand("explain")) return run(explain_options);
-        if (app.got_subcommand("resume")) return resume(resume_options, parse_run);
-        if (app.got_subcommand("rerun")) return rerun(rerun_options, parse_run);
-        if (app.got_subcommand("tutorial")) return tutorial(tutorial_options);
-        if (app.got_subcommand("experiment")) return experiment(experiment_options);
-        if (app.got_subcommand("plot")) return plot(plot_options);
+        if (const auto it = commands.find(app.get_subcommands().front()->get_name()); it != commands.end())
+            return it->second();
         if (app.got_subcommand("check")) return check(check_input);
         if (app.got_subcommand("world")) return world(world_options);
         if (app.got_subcommand("describe")) return describe(describe_options);
-        if (app.got_subcommand("convert")) return convert(convert_options);
-        if (app.got_subcommand("edit")) return edit(edit_options);
         if (app.got_subcommand("view")) return view(directory);
-        if (app.got_subcommand("studio")) return studio(argv);
         if (app.got_subcommand("man")) return print("{}", man_page(app)), fine;
         if (app.got_subcommand("completion")) return print("{}", completion(app, shell)), fine;
-        if (app.got_subcommand("new")) return create(new_options);
-        if (app.got_subcommand("build-plugin")) return build_plugin(build_options);
-        if (app.got_subcommand("trust")) return trust(trust_options);
         if (app.got_subcommand("schema")) return schema(schema_options);
         return types(type, plugins);
     } catch (const forage::InputError& e) {  // its text has the words "error" and "hint"

@@ -94,9 +94,8 @@ CLI::Option* add_texts(CLI::App& command, const char* name, std::vector<model::E
 }
 
 CLI::Option* add_plot_format(CLI::App& command, std::string& format) {
-    return command.add_option("--plot-format", format, "Format of pictures: png, svg or pdf [png]")
-        ->check(one_of({"png", "svg", "pdf"}))
-        ->option_text("FORMAT");
+    return add_value(command, "--plot-format", format, "FORMAT", "Format of pictures: png, svg or pdf [png]")
+        ->check(one_of({"png", "svg", "pdf"}));
 }
 
 void add_plugins(CLI::App& command, std::vector<std::string>& plugins) {
@@ -120,9 +119,8 @@ void add_input(CLI::App& command, RunInput& input) {
         ->required()
         ->expected(1, 1000)
         ->option_text("FILE...");
-    command.add_option("-w,--world", input.world, "World in which the robot lives (.world)")
-        ->check(named("file"))
-        ->option_text("FILE");
+    add_value(command, "-w,--world", input.world, "FILE", "World in which the robot lives (.world)")
+        ->check(named("file"));
     add_texts(command, "-s,--set", input.settings,
               "Change a parameter: 'Process/Group.parameter=value', 'Process.parameter=value' for a "
               "module, 'Connection.parameter=value' for a synapse; may be repeated",
@@ -144,16 +142,14 @@ void add_tutorial(CLI::App& app, TutorialOptions& o) {
         "Example:\n"
         "  forage tutorial 3.1\n"
         "  forage tutorial 2.2 --system mine.iqr");
-    tutorial.add_option("EXERCISE", o.exercise, "Number of an exercise or of a part, or an experiment file")
-        ->option_text(" ");
-    tutorial
-        .add_option("--system", o.system,
-                    "Run the exercise on this system, and say what it still lacks; the exit status is 1 if "
-                    "it lacks something")
-        ->option_text("FILE");
-    tutorial.add_option("-o,--output", o.directory, "Directory for results [forage-out/tutorial/EXERCISE]")
-        ->check(named("directory"))
-        ->option_text("DIR");
+    add_value(tutorial, "EXERCISE", o.exercise, " ",
+              "Number of an exercise or of a part, or an experiment file");
+    add_value(tutorial, "--system", o.system, "FILE",
+              "Run the exercise on this system, and say what it still lacks; the exit status is 1 if "
+              "it lacks something");
+    add_value(tutorial, "-o,--output", o.directory, "DIR",
+              "Directory for results [forage-out/tutorial/EXERCISE]")
+        ->check(named("directory"));
 }
 
 void add_experiment(CLI::App& app, ExperimentOptions& o) {
@@ -167,13 +163,12 @@ void add_experiment(CLI::App& app, ExperimentOptions& o) {
         "On a cluster (docs/how-to/cluster.md):\n"
         "  forage experiment systems/light_threshold.xml --slurm --partition short --time 1:00:00\n"
         "  forage experiment systems/light_threshold.xml --status");
-    experiment.add_option("FILE", o.file, "Experiment file (.xml)")->required()->option_text(" ");
-    experiment.add_option("-o,--output", o.directory, "Directory for results [forage-out/ and FILE's name]")
-        ->check(named("directory"))
-        ->option_text("DIR");
-    experiment.add_option("-j,--jobs", o.jobs, "Number of simultaneous runs [one per core]")
-        ->transform(threads())
-        ->option_text("N");
+    add_value(experiment, "FILE", o.file, " ", "Experiment file (.xml)")->required();
+    add_value(experiment, "-o,--output", o.directory, "DIR",
+              "Directory for results [forage-out/ and FILE's name]")
+        ->check(named("directory"));
+    add_value(experiment, "-j,--jobs", o.jobs, "N", "Number of simultaneous runs [one per core]")
+        ->transform(threads());
     add_plugins(experiment, o.plugins);
     experiment.add_flag("--fresh", o.fresh, "Repeat finished runs");
     repeated(experiment.add_option(
@@ -181,12 +176,10 @@ void add_experiment(CLI::App& app, ExperimentOptions& o) {
                  "Write the results also as results.npy or results.h5: npy or hdf5; may be repeated"))
         ->check(one_of({"npy", "hdf5"}))
         ->option_text("FORMAT");
-    auto* bundle = experiment
-                       .add_option("--bundle", o.bundle,
-                                   "Write everything that repeats the experiment, and its results, to one "
-                                   ".zip file for 'forage rerun' and for archives")
-                       ->check(named("file"))
-                       ->option_text("FILE");
+    auto* bundle = add_value(experiment, "--bundle", o.bundle, "FILE",
+                             "Write everything that repeats the experiment, and its results, to one "
+                             ".zip file for 'forage rerun' and for archives")
+                       ->check(named("file"));
     experiment.add_flag("-q,--quiet", o.quiet, "Print errors only");
     const std::string cluster = "Many machines";
     auto* shard = experiment.add_option("--shard", o.shard, "Execute part I of N parts only, such as 3/10");
@@ -203,21 +196,18 @@ void add_experiment(CLI::App& app, ExperimentOptions& o) {
     for (auto* flag : {merge, status, slurm}) flag->group(cluster)->excludes(shard);
     for (auto* flag : {shard, merge, status, slurm}) flag->excludes(bundle);
     merge->excludes(status)->excludes(slurm), status->excludes(slurm);
-    experiment
-        .add_option("--after-round", o.after_round,
-                    "With --merge, in the script of --slurm: when round N is complete and another one "
-                    "follows, submit it")
+    add_value(experiment, "--after-round", o.after_round, "N",
+              "With --merge, in the script of --slurm: when round N is complete and another one "
+              "follows, submit it")
         ->needs(merge)
-        ->option_text("N")
         ->group(cluster);
     experiment.add_flag("--dry-run", o.dry_run, "With --slurm: only write the scripts")
         ->needs(slurm)
         ->group(cluster);
-    experiment
-        .add_option("--array-size", o.tasks, "With --slurm: number of parts [100, or that of the runs]")
+    add_value(experiment, "--array-size", o.tasks, "N",
+              "With --slurm: number of parts [100, or that of the runs]")
         ->needs(slurm)
         ->transform(count())
-        ->option_text("N")
         ->group(cluster);
     const auto pass_on = [&](const char* name, const char* description, const char* value) {
         experiment
@@ -270,28 +260,23 @@ void add_plot(CLI::App& app, PlotOptions& o) {
         "docs/reference/expressions.md.\n"
         "Example:\n"
         "  forage plot systems/reactive_foraging.iqr diagram 'connection:US to Approach' --plot-format svg");
-    plot.add_option("FROM", o.source,
-                    "Directory of results, recording (.csv, .npy, .npz, .h5) or system (.iqr)")
-        ->required()
-        ->option_text("DIR|FILE");
-    plot.add_option("PLOT", o.plots, "Plots to draw; without any, all that are possible")
-        ->option_text("PLOT...");
+    add_value(plot, "FROM", o.source, "DIR|FILE",
+              "Directory of results, recording (.csv, .npy, .npz, .h5) or system (.iqr)")
+        ->required();
+    add_value(plot, "PLOT", o.plots, "PLOT...", "Plots to draw; without any, all that are possible");
     repeated(plot.add_option("--where", o.where,
                              "Of an experiment, draw only the runs with this value of a swept parameter or "
                              "of the seed: 'threshold=0.5', 'seed=1'; may be repeated"))
         ->option_text("NAME=VALUE");
-    plot.add_option("-o,--output", o.directory, "Directory for pictures [beside FROM]")
-        ->check(named("directory"))
-        ->option_text("DIR");
-    plot.add_option("--layout", o.layout,
-                    "Draw the plots as panels a, b, c, ... of one figure, row by row: '2x3' are "
-                    "two rows of three panels")
-        ->option_text("ROWSxCOLUMNS");
-    plot.add_option("--width", o.width,
-                    "Width of each picture: '600px', or in mm, such as 85 or 180 for one or two columns of a "
-                    "paper; PNG then has 300 dots per inch [that which suits its content]")
-        ->check(named("width"))
-        ->option_text("WIDTH");
+    add_value(plot, "-o,--output", o.directory, "DIR", "Directory for pictures [beside FROM]")
+        ->check(named("directory"));
+    add_value(plot, "--layout", o.layout, "ROWSxCOLUMNS",
+              "Draw the plots as panels a, b, c, ... of one figure, row by row: '2x3' are "
+              "two rows of three panels");
+    add_value(plot, "--width", o.width, "WIDTH",
+              "Width of each picture: '600px', or in mm, such as 85 or 180 for one or two columns of a "
+              "paper; PNG then has 300 dots per inch [that which suits its content]")
+        ->check(named("width"));
     add_plot_format(plot, o.plot_format);
 }
 
@@ -302,24 +287,18 @@ void add_convert(CLI::App& app, ConvertOptions& o) {
         "Example:\n"
         "  forage convert systems/reactive_foraging.iqr bug.iqrProcess --extract Bug\n"
         "  forage convert systems/models/oja.iqr oja.cpp --as-plugin oja");
-    convert.add_option("IN", o.input, "File to read (.iqr or .iqrProcess)")->required()->option_text("FILE");
-    convert
-        .add_option(
-            "OUT", o.output,
-            "File to write (.iqr or .iqrProcess; .cpp with --as-plugin); may be the same, or - to print it")
+    add_value(convert, "IN", o.input, "FILE", "File to read (.iqr or .iqrProcess)")->required();
+    add_value(convert, "OUT", o.output, "FILE",
+              "File to write (.iqr or .iqrProcess; .cpp with --as-plugin); may be the same, or - to print it")
         ->required()
-        ->check(named("file"))
-        ->option_text("FILE");
+        ->check(named("file"));
     repeated(convert.add_option("--import", o.imports,
                                 "Add a copy of a process from an .iqrProcess file; may be repeated"))
         ->option_text("FILE");
-    convert
-        .add_option("--extract", o.extract, "Write this process alone, with the connections among its groups")
-        ->option_text("PROCESS");
-    convert
-        .add_option("--as-plugin", o.as_plugin,
-                    "Write this type of the system as the source of a plugin that computes the same")
-        ->option_text("TYPE");
+    add_value(convert, "--extract", o.extract, "PROCESS",
+              "Write this process alone, with the connections among its groups");
+    add_value(convert, "--as-plugin", o.as_plugin, "TYPE",
+              "Write this type of the system as the source of a plugin that computes the same");
     add_plugins(convert, o.plugins);
     convert.add_flag("--embed", o.embed, "Write the content of linked processes instead of links");
     auto* terse = convert.add_flag(
@@ -343,15 +322,11 @@ void add_edit(CLI::App& app, EditOptions& o) {
         "  forage edit mine.iqr '{\"do\": \"parameter\", \"id\": \"light\", \"name\": \"threshold\", "
         "\"value\": 0.3}'\n"
         "docs/design/studio-protocol.md lists all operations, and the studio shows edits in this form.");
-    command.add_option("FILE", o.file, "System or world (.iqr or .world)")->required()->option_text(" ");
-    command
-        .add_option("OPERATIONS", o.operations,
-                    "JSON: an operation or a list of them, or the name of a file with it")
-        ->required()
-        ->option_text(" ");
-    command.add_option("-o,--output", o.output, "File to write [FILE]")
-        ->check(named("file"))
-        ->option_text("FILE");
+    add_value(command, "FILE", o.file, " ", "System or world (.iqr or .world)")->required();
+    add_value(command, "OPERATIONS", o.operations, " ",
+              "JSON: an operation or a list of them, or the name of a file with it")
+        ->required();
+    add_value(command, "-o,--output", o.output, "FILE", "File to write [FILE]")->check(named("file"));
     add_plugins(command, o.plugins);
 }
 
@@ -359,13 +334,11 @@ void add_new(CLI::App& app, NewOptions& o) {
     auto& command = *app.add_subcommand(
         "new", "Write the beginning of a system, or a small project with a type of your own");
     command.footer("Example:\n  forage new system mine --robot\n  forage new neuron adaptive");
-    command.add_option("KIND", o.kind, "system, neuron, synapse or module")
+    add_value(command, "KIND", o.kind, " ", "system, neuron, synapse or module")
         ->required()
-        ->check(one_of({"system", "neuron", "synapse", "module"}))
-        ->option_text(" ");
-    command
-        .add_option("NAME", o.name, "Name of the system, or of the folder and, after the kind, of the type")
-        ->option_text(" ");
+        ->check(one_of({"system", "neuron", "synapse", "module"}));
+    add_value(command, "NAME", o.name, " ",
+              "Name of the system, or of the folder and, after the kind, of the type");
     command.add_flag("--robot", o.robot, "A system with a robot, and a world for it");
 }
 
@@ -377,17 +350,11 @@ void add_studio(CLI::App& app, StudioCommand& o) {
         "systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world --open");
     add_input(command, o.input);
     command.get_option("SYSTEM")->required(false);
-    command.add_option("--seed", o.input.seed, "Decides everything random [1]")
-        ->transform(seed())
-        ->option_text("N");
-    command
-        .add_option("--plot-config", o.plot_config,
-                    "Layout that the page begins with (.layout.json), or plots of the original (.conf)")
-        ->check(CLI::ExistingFile)
-        ->option_text("FILE");
-    command.add_option("--port", o.port, "Port on 127.0.0.1 [a free one]")
-        ->check(CLI::Range(0, 65535))
-        ->option_text("N");
+    add_value(command, "--seed", o.input.seed, "N", "Decides everything random [1]")->transform(seed());
+    add_value(command, "--plot-config", o.plot_config, "FILE",
+              "Layout that the page begins with (.layout.json), or plots of the original (.conf)")
+        ->check(CLI::ExistingFile);
+    add_value(command, "--port", o.port, "N", "Port on 127.0.0.1 [a free one]")->check(CLI::Range(0, 65535));
     command.add_flag("-r,--run", o.running, "Begin to run at once");
     command.add_flag("--recover", o.recover, "Resume the session of this system that was killed");
     command.add_flag("--open", o.open, "Open the browser");
@@ -398,10 +365,9 @@ void add_build_plugin(CLI::App& app, BuildPluginOptions& o) {
     command.footer(
         "The compiler is the one in CXX, or c++; CXXFLAGS are added.\nExample:\n  forage build-plugin "
         "adaptive.cpp");
-    command.add_option("FILE", o.source, "Source file (.cpp)")->required()->option_text(" ");
-    command.add_option("-o,--output", o.output, "Plugin to write [plugins/NAME.so beside FILE]")
-        ->check(named("file"))
-        ->option_text("FILE");
+    add_value(command, "FILE", o.source, " ", "Source file (.cpp)")->required();
+    add_value(command, "-o,--output", o.output, "FILE", "Plugin to write [plugins/NAME.so beside FILE]")
+        ->check(named("file"));
     command.add_flag("--debug", o.debug, "For a debugger; the plugin checks each index, and is slower");
 }
 
@@ -410,8 +376,7 @@ void add_trust(CLI::App& app, TrustOptions& o) {
     command.footer(
         "Plugins are programs. A run loads those in the folder plugins beside its system only if this folder "
         "is trusted;\n--plugin PATH and FORAGE_PLUGIN_PATH need no trust.\nExample:\n  forage trust plugins");
-    command.add_option("FOLDER", o.folder, "Folder with plugins (.so), or with a folder plugins")
-        ->option_text(" ");
+    add_value(command, "FOLDER", o.folder, " ", "Folder with plugins (.so), or with a folder plugins");
     command.add_flag("--remove", o.remove, "Trust it no longer");
 }
 

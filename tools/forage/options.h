@@ -21,6 +21,12 @@ CLI::Validator one_of(std::vector<std::string> names);
 /// Replaces the option names of version 0.1 in a command line by their current names. The old names are
 /// accepted for one version.
 std::vector<std::string> current_names(std::vector<std::string> words);
+/// Adds an option whose value the help calls `value`.
+template <class T>
+CLI::Option* add_value(CLI::App& command, const char* name, T& to, const char* value,
+                       const char* description) {
+    return command.add_option(name, to, description)->option_text(value);
+}
 /// Makes an option repeatable, with one value each time.
 CLI::Option* repeated(CLI::Option* option);
 /// Adds a repeatable option; each of its values is added to `list`.

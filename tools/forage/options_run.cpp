@@ -79,11 +79,10 @@ void add_recording(CLI::App& run, RunSpec& o) {
                                 "'...(x1..x2,y1..y2)' for some of its cells, 'mean(...)' for their mean, "
                                 "'...=NAME.h5' to name the file; may be repeated"))
                        ->option_text("SOURCE");
-    run.add_option("--format", o.record.format,
-                   "Format of recordings without a file name: csv, npy, npz (NumPy), h5 (HDF5) or dat (the "
-                   "original's data sampler) [csv]")
+    add_value(run, "--format", o.record.format, "FORMAT",
+              "Format of recordings without a file name: csv, npy, npz (NumPy), h5 (HDF5) or dat (the "
+              "original's data sampler) [csv]")
         ->check(one_of({"csv", "npy", "npz", "h5", "dat"}))
-        ->option_text("FORMAT")
         ->needs(record);
     run.add_option_function<std::uint64_t>(
            "--record-every",
@@ -96,13 +95,11 @@ void add_recording(CLI::App& run, RunSpec& o) {
         ->needs(record);
     run.add_flag("--record-mean", o.record.mean, "Record the mean of K cycles instead of every K-th")
         ->needs("--record-every");
-    run.add_option("--record-from", o.record.from, "Record from this cycle on [0]")
+    add_value(run, "--record-from", o.record.from, "CYCLE", "Record from this cycle on [0]")
         ->transform(seed())
-        ->option_text("CYCLE")
         ->needs(record);
-    run.add_option("--record-until", o.record.until, "Record up to this cycle")
+    add_value(run, "--record-until", o.record.until, "CYCLE", "Record up to this cycle")
         ->transform(seed())
-        ->option_text("CYCLE")
         ->needs(record);
     add_texts(run, "-p,--plot", o.plots,
               "Draw a picture: 'time:SOURCE', 'space:SOURCE@CYCLES', 'movie:SOURCE', 'connection:NAME' or "
@@ -136,10 +133,9 @@ void add_network(CLI::App& run, RunSpec& o) {
                [&o](const std::string& text) { o.broadcast.to = endpoint("--broadcast", text, 1); },
                "Send the average activity of all groups in datagrams, 'groupID:average;...'")
             ->option_text("HOST:PORT");
-    run.add_option("--broadcast-every", o.broadcast.interval_ms,
-                   "Milliseconds of the clock between datagrams [500]")
+    add_value(run, "--broadcast-every", o.broadcast.interval_ms, "MS",
+              "Milliseconds of the clock between datagrams [500]")
         ->check(CLI::Range(40, 10000))
-        ->option_text("MS")
         ->needs(broadcast);
     add_texts(run, "--broadcast-group", o.broadcast.sources,
               "Send the average of this group, as for --record, instead of all; may be repeated", "SOURCE")
@@ -174,29 +170,23 @@ std::vector<std::string> deciding_words(const CLI::App& run) {
 void add_run_options(CLI::App& run, RunOptions& options) {
     RunSpec& o = options.spec;
     add_input(run, o.input);
-    auto* cycles = run.add_option("-c,--cycles", o.length.cycles, "Stop after N cycles")
-                       ->transform(count())
-                       ->option_text("N");
-    auto* seconds = run.add_option("--seconds", o.length.seconds, "Stop after S seconds of the world")
-                        ->check(positive())
-                        ->option_text("S");
-    auto* trials = run.add_option("-t,--trials", o.length.trials,
-                                  "Stop after N trials; a trial ends when the robot is reset")
-                       ->transform(count())
-                       ->option_text("N");
+    auto* cycles =
+        add_value(run, "-c,--cycles", o.length.cycles, "N", "Stop after N cycles")->transform(count());
+    auto* seconds = add_value(run, "--seconds", o.length.seconds, "S", "Stop after S seconds of the world")
+                        ->check(positive());
+    auto* trials = add_value(run, "-t,--trials", o.length.trials, "N",
+                             "Stop after N trials; a trial ends when the robot is reset")
+                       ->transform(count());
     cycles->excludes(seconds)->excludes(trials);
     seconds->excludes(trials);
-    run.add_option("--trial-timeout", o.length.trial_timeout,
-                   "Stop when a trial takes longer than S seconds of the world [300]")
+    add_value(run, "--trial-timeout", o.length.trial_timeout, "S",
+              "Stop when a trial takes longer than S seconds of the world [300]")
         ->check(positive())
-        ->option_text("S")
         ->needs(trials);
-    run.add_option("--seed", o.input.seed, "Decides everything random [1]")
-        ->transform(seed())
-        ->option_text("N");
+    add_value(run, "--seed", o.input.seed, "N", "Decides everything random [1]")->transform(seed());
     add_recording(run, o);
-    run.add_option("--until", o.length.until.text, "Stop early when a condition holds, as for --schedule")
-        ->option_text("WHEN");
+    add_value(run, "--until", o.length.until.text, "WHEN",
+              "Stop early when a condition holds, as for --schedule");
     repeated(
         run.add_option_function<std::vector<std::string>>(
             "--schedule",
@@ -210,17 +200,14 @@ void add_run_options(CLI::App& run, RunOptions& options) {
             "'or'. Instead of WHERE=VALUE, 'move NAME=X,Y' moves a robot or an object (m), and 'begin_trial' "
             "ends a trial. See docs/reference/expressions.md; may be repeated"))
         ->option_text("'WHEN: WHERE=VALUE'");
-    run.add_option("--replay", o.input.replay,
-                   "Table that modules of type moduleReplay play: cycle,process,target,v0,v1,...")
-        ->option_text("FILE");
+    add_value(run, "--replay", o.input.replay, "FILE",
+              "Table that modules of type moduleReplay play: cycle,process,target,v0,v1,...");
     add_manipulations(run, o);
     add_network(run, o);
-    run.add_option("-o,--output", o.directory, "Directory for results [forage-out]; '' for none")
-        ->option_text("DIR");
-    run.add_option("--real-time-factor", o.input.real_time_factor,
-                   "Seconds of the world per second of the clock, instead of the world's own")
+    add_value(run, "-o,--output", o.directory, "DIR", "Directory for results [forage-out]; '' for none");
+    add_value(run, "--real-time-factor", o.input.real_time_factor, "X",
+              "Seconds of the world per second of the clock, instead of the world's own")
         ->check(positive())
-        ->option_text("X")
         ->needs("--world");
     run.add_flag_callback(
         "--no-noise", [&o] { o.input.noise = false; },
@@ -228,18 +215,17 @@ void add_run_options(CLI::App& run, RunOptions& options) {
     run.add_flag("--sensor-rates", o.input.sensor_rates,
                  "Sensors have the rates of the world file, instead of once per cycle")
         ->needs("--world");
-    run.add_option("--latency", o.input.latency, "Number of cycles by which sensor values arrive later [0]")
+    add_value(run, "--latency", o.input.latency, "CYCLES",
+              "Number of cycles by which sensor values arrive later [0]")
         ->check(CLI::Range(0, 1000))
-        ->option_text("CYCLES")
         ->needs("--world");
     run.add_flag("--game", o.input.game,
                  "Play the robotics challenge: two teams collect resources for five minutes")
         ->needs("--world");
-    run.add_option("--video", o.video,
-                   "Film the world from above, with what the robots see: an animated .gif, an .mp4 film "
-                   "(needs ffmpeg), "
-                   "or numbered .png files")
-        ->option_text("FILE")
+    add_value(run, "--video", o.video, "FILE",
+              "Film the world from above, with what the robots see: an animated .gif, an .mp4 film "
+              "(needs ffmpeg), "
+              "or numbered .png files")
         ->needs("--world");
     add_texts(
         run, "--video-group", o.video_groups,
@@ -247,22 +233,20 @@ void add_run_options(CLI::App& run, RunOptions& options) {
         "repeated",
         "SOURCE")
         ->needs("--video");
-    run.add_option("--threads", o.threads,
-                   "Largest number of threads that share a cycle. It pays for large systems, while cores are "
-                   "idle. The numbers do not depend on it [1]")
-        ->transform(threads())
-        ->option_text("N");
+    add_value(run, "--threads", o.threads, "N",
+              "Largest number of threads that share a cycle. It pays for large systems, while cores are "
+              "idle. The numbers do not depend on it [1]")
+        ->transform(threads());
     run.add_option_function<std::string>(
            "--checkpoint-every", [&o](const std::string& text) { o.checkpoint_every = parse_interval(text); },
            "Write a checkpoint every N cycles, or every 'N s' of the world. After any stop, even a power "
            "cut, 'forage resume' continues from there")
         ->option_text("N")
         ->excludes("--video");  // a film cannot be resumed
-    run.add_option("--bundle", o.bundle,
-                   "Write everything that repeats the run, and its results, to one .zip file for 'forage "
-                   "rerun' and for archives")
+    add_value(run, "--bundle", o.bundle, "FILE",
+              "Write everything that repeats the run, and its results, to one .zip file for 'forage "
+              "rerun' and for archives")
         ->check(named("file"))
-        ->option_text("FILE")
         ->excludes("--remote");  // what a network sends is not repeated
     run.add_flag("--discard-checkpoint", o.discard_checkpoint,
                  "Discard an unfinished run: without it, a directory with a checkpoint is refused");
@@ -321,12 +305,10 @@ void add_resume(CLI::App& app, ResumeOptions& o) {
         "The files are then the same, byte for byte, as those of a run that was never stopped.\n"
         "Example:\n"
         "  forage resume forage-out");
-    resume.add_option("FROM", o.path, "Directory of results, or one of the checkpoints in it")
-        ->required()
-        ->option_text("DIR|FILE");
-    resume.add_option("--threads", o.threads, "Largest number of threads that share a cycle [as before]")
-        ->transform(threads())
-        ->option_text("N");
+    add_value(resume, "FROM", o.path, "DIR|FILE", "Directory of results, or one of the checkpoints in it")
+        ->required();
+    add_value(resume, "--threads", o.threads, "N", "Largest number of threads that share a cycle [as before]")
+        ->transform(threads());
     resume.add_flag("-q,--quiet", o.quiet, "Print errors only");
 }
 
@@ -338,14 +320,11 @@ void add_rerun(CLI::App& app, RerunOptions& o) {
         "'forage run --bundle paper.zip' writes a bundle.\n"
         "Example:\n"
         "  forage rerun paper.zip");
-    rerun
-        .add_option("FILE", o.path,
-                    "Bundle, or the run.json or the directory of results of a run whose files are in place")
-        ->required()
-        ->option_text("FILE|DIR");
-    rerun.add_option("-o,--output", o.directory, "Directory for files and results [forage-rerun]")
-        ->check(named("directory"))
-        ->option_text("DIR");
+    add_value(rerun, "FILE", o.path, "FILE|DIR",
+              "Bundle, or the run.json or the directory of results of a run whose files are in place")
+        ->required();
+    add_value(rerun, "-o,--output", o.directory, "DIR", "Directory for files and results [forage-rerun]")
+        ->check(named("directory"));
     rerun.add_flag("-q,--quiet", o.quiet, "Print errors only");
 }
 
