@@ -10,6 +10,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "core/base/sequence.h"
 #include "core/run/weights.h"
 #include "tools/api/agents/agent_pool.h"
 #include "tools/python/run.h"
@@ -39,6 +40,15 @@ class InUse {
   private:
     std::atomic_flag& flag_;
 };
+
+/// The function `f` of an object, which it does not share with another thread meanwhile.
+template <class Result, class Self, class... Arguments>
+auto alone(Result (*f)(Self&, Arguments...)) {
+    return [f](Self& self, Arguments... arguments) {
+        const InUse use(self.in_use);
+        return f(self, std::forward<Arguments>(arguments)...);
+    };
+}
 
 struct PythonAgents {
     explicit PythonAgents(Task task) : run(std::move(task)) {}
@@ -71,15 +81,13 @@ ActionKind action_kind(const std::string& name) {
 }
 
 std::vector<AgentGroup> groups_of(const std::vector<Port>& ports) {
-    std::vector<AgentGroup> out;
-    for (const auto& [name, rows, columns] : ports) out.push_back({name, columns, rows});
-    return out;
+    return collected(ports, [](const Port& p) {
+        return AgentGroup{std::get<0>(p), std::get<2>(p), std::get<1>(p)};
+    });
 }
 
 std::vector<std::string> port_names(const std::vector<Port>& ports) {
-    std::vector<std::string> out;
-    for (const auto& port : ports) out.push_back(std::get<0>(port));
-    return out;
+    return collected(ports, [](const Port& p) { return std::get<0>(p); });
 }
 
 /// What agents do in a world, as AgentRun and AgentPool are given it (forage/gym.py).
@@ -158,13 +166,10 @@ py::tuple step_with(PythonAgents& self, const py::object& action) {
 using Starts = std::vector<std::array<double, 3>>;
 
 std::vector<Pose2> poses_of(const Starts& starts) {
-    std::vector<Pose2> out;
-    for (const auto& [x, y, yaw] : starts) out.push_back({x, y, yaw});
-    return out;
+    return collected(starts, [](const auto& s) { return Pose2{s[0], s[1], s[2]}; });
 }
 
 void reset(PythonAgents& self, std::optional<std::uint64_t> seed, const Starts& starts) {
-    const InUse use(self.in_use);
     const auto poses = poses_of(starts);
     const py::gil_scoped_release others;
     self.run.reset(seed, poses);
@@ -189,11 +194,6 @@ py::array_t<std::uint8_t> picture_of(AgentRun& agent) {
     return out;
 }
 
-py::array_t<std::uint8_t> picture(PythonAgents& self) {
-    const InUse use(self.in_use);
-    return picture_of(self.run);
-}
-
 /// The number of an environment. Throws InputError.
 std::size_t index_in(const PythonPool& self, std::int64_t i) {
     const auto count = static_cast<std::int64_t>(self.pool.size());
@@ -212,7 +212,6 @@ py::array_t<float> table_of(AgentPool& pool) {
 
 py::array_t<float> reset_pool(PythonPool& self, const std::vector<std::optional<std::uint64_t>>& seeds,
                               const Starts& starts, const std::optional<py::array_t<bool>>& mask) {
-    const InUse use(self.in_use);
     const auto poses = poses_of(starts);
     auto out = table_of(self.pool);
     const auto rows = span_of(out);
@@ -233,7 +232,6 @@ void set_weights(Agents& agents, const Run& run, std::size_t runs, const std::st
 }
 
 py::tuple step_pool(PythonPool& self, const py::object& given) {
-    const InUse use(self.in_use);
     const Numbers actions = numbers_in(given);
     AgentPool& pool = self.pool;
     const auto runs = static_cast<py::ssize_t>(pool.size());
@@ -259,7 +257,7 @@ py::tuple step_pool(PythonPool& self, const py::object& given) {
 void add_agents(py::module_& module) {
     py::class_<PythonAgents>(module, "AgentRun", "A run that agents drive. forage.gym uses it.")
         .def(py::init([](const py::kwargs& task) { return std::make_unique<PythonAgents>(read_task(task)); }))
-        .def("reset", &reset, "seed"_a, "starts"_a)
+        .def("reset", alone(&reset), "seed"_a, "starts"_a)
         .def(
             "act", [](PythonAgents& self, std::size_t i, const py::object& a) { act(self, i, a); }, "agent"_a,
             "action"_a)
@@ -269,20 +267,14 @@ void add_agents(py::module_& module) {
                 return is_connection(*self.run.run(), name);
             },
             "name"_a)
-        .def(
-            "set_parameter",
-            [](PythonAgents& self, const std::string& assignment) {
-                const InUse use(self.in_use);
-                self.run.set(assignment);
-            },
-            "assignment"_a)
-        .def(
-            "set_weights",
-            [](PythonAgents& self, const std::string& name, const py::object& weights) {
-                const InUse use(self.in_use);
-                set_weights(self.run, *self.run.run(), 1, name, weights);
-            },
-            "connection"_a, "weights"_a)
+        .def("set_parameter",
+             alone(+[](PythonAgents& self, const std::string& assignment) { self.run.set(assignment); }),
+             "assignment"_a)
+        .def("set_weights",
+             alone(+[](PythonAgents& self, const std::string& name, const py::object& weights) {
+                 set_weights(self.run, *self.run.run(), 1, name, weights);
+             }),
+             "connection"_a, "weights"_a)
         .def("step", &step)
         .def("step_with", &step_with, "action"_a)
         .def("observation", &observation, "agent"_a)
@@ -293,24 +285,12 @@ void add_agents(py::module_& module) {
         .def(
             "motors", [](const PythonAgents& self, std::size_t i) { return ports(self.run.motors(i)); },
             "agent"_a)
-        .def("picture", &picture)
+        .def("picture", alone(+[](PythonAgents& self) { return picture_of(self.run); }))
         .def_property_readonly("run",
-                               [](PythonAgents& self) {
-                                   const InUse use(self.in_use);
-                                   return shown_run(self.run, self.shown);
-                               })
-        .def("save",
-             [](PythonAgents& self) {
-                 const InUse use(self.in_use);
-                 return py::bytes(self.run.save());
-             })
-        .def(
-            "restore",
-            [](PythonAgents& self, const std::string& state) {
-                const InUse use(self.in_use);
-                self.run.restore(state);
-            },
-            "state"_a)
+                               alone(+[](PythonAgents& self) { return shown_run(self.run, self.shown); }))
+        .def("save", alone(+[](PythonAgents& self) { return py::bytes(self.run.save()); }))
+        .def("restore", alone(+[](PythonAgents& self, const std::string& state) { self.run.restore(state); }),
+             "state"_a)
         .def_property_readonly("robots", [](const PythonAgents& self) {
             std::vector<std::string> out;
             for (std::size_t i = 0; i < self.run.agents(); ++i) out.push_back(self.run.robot(i));
@@ -321,59 +301,41 @@ void add_agents(py::module_& module) {
                  return std::make_unique<PythonPool>(read_task(task), runs, threads);
              }),
              "runs"_a, "threads"_a)
-        .def("reset", &reset_pool, "seeds"_a, "starts"_a, "mask"_a)
+        .def("reset", alone(&reset_pool), "seeds"_a, "starts"_a, "mask"_a)
         .def(
             "is_connection",
             [](PythonPool& self, const std::string& name) {
                 return is_connection(*self.pool[0].run(), name);
             },
             "name"_a)
-        .def(
-            "set_parameters",
-            [](PythonPool& self, const std::vector<std::string>& assignments) {
-                const InUse use(self.in_use);
-                self.pool.set(assignments);
-            },
-            "assignments"_a)
-        .def(
-            "set_weights",
-            [](PythonPool& self, const std::string& name, const py::object& weights) {
-                const InUse use(self.in_use);
-                set_weights(self.pool, *self.pool[0].run(), self.pool.size(), name, weights);
-            },
-            "connection"_a, "weights"_a)
-        .def("step", &step_pool, "actions"_a)
-        .def(
-            "run",
-            [](PythonPool& self, std::int64_t i) {
-                const InUse use(self.in_use);
-                const auto at = index_in(self, i);
-                return shown_run(self.pool[at], self.shown[at]);
-            },
-            "environment"_a)
-        .def(
-            "picture",
-            [](PythonPool& self, std::int64_t i) {
-                const InUse use(self.in_use);
-                return picture_of(self.pool[index_in(self, i)]);
-            },
-            "environment"_a)
-        .def("save",
-             [](PythonPool& self) {
-                 const InUse use(self.in_use);
+        .def("set_parameters",
+             alone(+[](PythonPool& self, const std::vector<std::string>& all) { self.pool.set(all); }),
+             "assignments"_a)
+        .def("set_weights", alone(+[](PythonPool& self, const std::string& name, const py::object& weights) {
+                 set_weights(self.pool, *self.pool[0].run(), self.pool.size(), name, weights);
+             }),
+             "connection"_a, "weights"_a)
+        .def("step", alone(&step_pool), "actions"_a)
+        .def("run", alone(+[](PythonPool& self, std::int64_t i) {
+                 const auto at = index_in(self, i);
+                 return shown_run(self.pool[at], self.shown[at]);
+             }),
+             "environment"_a)
+        .def("picture", alone(+[](PythonPool& self, std::int64_t i) {
+                 return picture_of(self.pool[index_in(self, i)]);
+             }),
+             "environment"_a)
+        .def("save", alone(+[](PythonPool& self) {
                  py::list out;
                  for (std::size_t i = 0; i < self.pool.size(); ++i)
                      out.append(py::bytes(self.pool[i].save()));
                  return out;
-             })
-        .def(
-            "restore",
-            [](PythonPool& self, const std::vector<std::string>& states) {
-                const InUse use(self.in_use);
-                for (std::size_t i = 0; i < std::min(states.size(), self.pool.size()); ++i)
-                    self.pool[i].restore(states[i]);
-            },
-            "states"_a)
+             }))
+        .def("restore", alone(+[](PythonPool& self, const std::vector<std::string>& states) {
+                 for (std::size_t i = 0; i < std::min(states.size(), self.pool.size()); ++i)
+                     self.pool[i].restore(states[i]);
+             }),
+             "states"_a)
         .def("sensors", [](PythonPool& self) { return ports(self.pool[0].sensors(0)); })
         .def("motors", [](PythonPool& self) { return ports(self.pool[0].motors(0)); })
         .def_property_readonly("threads", [](const PythonPool& self) { return self.pool.threads(); });
