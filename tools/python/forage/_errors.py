@@ -48,33 +48,18 @@ class InputError(ValueError):
     def __init__(self, text: str, diagnostics: Sequence[Diagnostic] = ()) -> None:
         super().__init__(text, diagnostics)
         self.diagnostics = list(diagnostics)
+        first = next((d for d in self.diagnostics if d.severity == "error"), Diagnostic("error", text))
+        self.file = first.file
+        """The path of the file with the first mistake; None when it is in an argument."""
+        self.line = first.line
+        """The line of the first mistake, from 1; None when it is not in a line."""
+        self.column = first.column
+        """The column of the first mistake, from 1, in bytes; None like the line."""
+        self.hint = first.hint
+        """How to correct the first mistake; may be empty."""
 
     def __str__(self) -> str:
         return str(self.args[0]).rstrip("\n")
-
-    @property
-    def _first(self) -> Diagnostic:
-        return next((d for d in self.diagnostics if d.severity == "error"), Diagnostic("error", str(self)))
-
-    @property
-    def file(self) -> str | None:
-        """The path of the file with the first mistake; None when it is in an argument."""
-        return self._first.file
-
-    @property
-    def line(self) -> int | None:
-        """The line of the first mistake, from 1; None when it is not in a line."""
-        return self._first.line
-
-    @property
-    def column(self) -> int | None:
-        """The column of the first mistake, from 1, in bytes; None like the line."""
-        return self._first.column
-
-    @property
-    def hint(self) -> str:
-        """How to correct the first mistake; may be empty."""
-        return self._first.hint
 
 
 class InputWarning(UserWarning):

@@ -324,19 +324,15 @@ class _Declared:
     def update_synapses(self, made: typing.Any, columns: dict[str, _Column], size: int) -> None:
         made.update(Synapses(columns, size))
 
-    def start_module(
-        self, made: typing.Any, inputs: dict[str, _Column], shapes: dict[str, tuple[int, ...]], draws: typing.Any, cycle: int
-    ) -> dict[str, _Column]:
-        ports = Ports(inputs, shapes, draws, cycle)
+    def start_module(self, made: typing.Any, *given: typing.Any) -> dict[str, _Column]:
+        ports = Ports(*given)
         if hasattr(made, "start"):
             made.start(ports)
         made.__dict__["_forage_started"] = True
         return ports._written
 
-    def update_module(
-        self, made: typing.Any, inputs: dict[str, _Column], shapes: dict[str, tuple[int, ...]], draws: typing.Any, cycle: int
-    ) -> dict[str, _Column]:
-        ports = Ports(inputs, shapes, draws, cycle)
+    def update_module(self, made: typing.Any, *given: typing.Any) -> dict[str, _Column]:
+        ports = Ports(*given)
         made.update(ports)
         return ports._written
 
