@@ -129,17 +129,15 @@ std::string add_to_world(const std::string& text, NewItem item, ModelTexts& mode
     const bool site = item.kind == "site", of_game = site && game != here.entries.end();
     if (site && !of_game)
         added = "<plugin name=\"game\" filename=\"libforage_game.so\">" + added + "</plugin>";
-    xml::TextEdits edits;
-    if (of_game) {
-        append(edits, text, here.tree.layout, *game->element, added);
-    } else {
-        const SourceElement* after = nullptr;
-        for (const auto& e : here.entries)
-            if (e.form != Entry::Form::world && e.form != Entry::Form::site) after = e.element;
-        const auto piece = xml::scan(added);
-        xml::insert_into(edits, text, *here.tree.world, after, here.tree.layout, {{added, &piece}});
-    }
-    auto out = edits.applied(text);
+    SdfEdit to{text, here.tree.layout};
+    const SourceElement* after = nullptr;
+    for (const auto& e : here.entries)
+        if (e.form != Entry::Form::world && e.form != Entry::Form::site) after = e.element;
+    if (of_game)
+        to.append(*game->element, added);
+    else
+        to.insert(*here.tree.world, after, added);
+    auto out = to.applied();
     const Opened now(out, models);
     // The new one is the last of its kind in the file.
     for (const auto& e : now.entries)
@@ -163,16 +161,16 @@ std::string moved_in_world(const std::string& text, std::string_view id, double 
     const Opened here(text, models);
     const auto& e = here.find(id);
     if (!e.placed()) throw std::invalid_argument(fmt::format("'{}' has no place", id));
-    xml::TextEdits edits;
+    SdfEdit to{text, here.tree.layout};
     if (e.form == Entry::Form::site) {
         const auto at = words(text, e.element->content);
-        if (at.size() >= 2) edits.replace(at[0], number_text(x)), edits.replace(at[1], number_text(y));
+        if (at.size() >= 2) to.edits.replace(at[0], number_text(x)), to.edits.replace(at[1], number_text(y));
     } else {
         auto pose = e.pose(text);
         pose.x = x, pose.y = y, pose.yaw = yaw.value_or(pose.yaw);
-        write_pose(edits, text, here.tree, e, pose);
+        write_pose(to, e, pose);
     }
-    return edits.applied(text);
+    return to.applied();
 }
 
 std::string set_in_world(const std::string& text, std::string& id, std::string_view property,
@@ -188,9 +186,9 @@ std::string set_in_world(const std::string& text, std::string& id, std::string_v
     if (property == "name" && here.has(wanted))
         throw std::invalid_argument(fmt::format("there is already a '{}'", wanted));
     const auto write = [&](const std::string& from, const Opened& now) {
-        xml::TextEdits edits;
-        write_property(edits, from, now.tree, now.entries[index], *p, wanted);
-        return edits.applied(from);
+        SdfEdit to{from, now.tree.layout};
+        write_property(to, now.entries[index], *p, wanted);
+        return to.applied();
     };
     std::string out;
     if (is_own(e, property)) {

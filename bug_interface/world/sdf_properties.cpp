@@ -153,11 +153,10 @@ void add_model_properties(const Entry& e, std::vector<ItemProperty>& out) {
     }
 }
 
-void write_length(xml::TextEdits& edits, std::string_view text, const Entry& e, const Length& length,
-                  double old, double value) {
+void write_length(SdfEdit& to, const Entry& e, const Length& length, double old, double value) {
     for (const auto& f : solid_forms(e)) {
         const auto* element = child(*f.shape, length.element);
-        edits.replace(words(text, element->content)[length.word], number_text(value));
+        to.edits.replace(words(to.text, element->content)[length.word], number_text(value));
     }
     const bool ball = solid_forms(e).front().shape->name == "sphere";
     if (!length.vertical && !ball) return;
@@ -165,15 +164,14 @@ void write_length(xml::TextEdits& edits, std::string_view text, const Entry& e, 
     const double half = ball ? 1 : 0.5;
     for (const auto& link : e.body.element->children) {
         const auto* pose = link.name == "link" ? child(link, "pose") : nullptr;
-        const auto at = pose ? words(text, pose->content) : std::vector<xml::Span>();
-        if (at.size() >= 6 && std::abs(pose_of(text, link).z - half * old) < 1e-9)
-            edits.replace(at[2], number_text(half * value));
+        const auto at = pose ? words(to.text, pose->content) : std::vector<xml::Span>();
+        if (at.size() >= 6 && std::abs(pose_of(to.text, link).z - half * old) < 1e-9)
+            to.edits.replace(at[2], number_text(half * value));
     }
 }
 
 /// Paints the visuals that have the colour of the first; others, such as the front of a robot, keep theirs.
-void write_colour(xml::TextEdits& edits, std::string_view text, const WorldTree& tree, const Entry& e,
-                  const std::string& hex) {
+void write_colour(SdfEdit& to, const Entry& e, const std::string& hex) {
     const auto value = colour_text(hex);
     const auto visuals = painted(e.body);
     for (const auto& [visual, colour] : visuals) {
@@ -182,48 +180,37 @@ void write_colour(xml::TextEdits& edits, std::string_view text, const WorldTree&
         const auto* material = child(*visual, "material");
         const auto* script = material ? child(*material, "script") : nullptr;
         if (!material) {
-            append(edits, text, tree.layout, *visual, "<material>" + plain + "</material>");
+            to.append(*visual, "<material>" + plain + "</material>");
         } else if (!material->closed) {
-            edits.replace(material->whole, "<material>" + plain + "</material>");
+            to.edits.replace(material->whole, "<material>" + plain + "</material>");
         } else if (script && !child(*material, "ambient") && !child(*material, "diffuse")) {
-            edits.replace(script->whole, plain);
+            to.edits.replace(script->whole, plain);
         } else {
-            for (const char* name : {"ambient", "diffuse"})
-                set_value(edits, text, tree.layout, *material, name, value);
+            for (const char* name : {"ambient", "diffuse"}) to.set_value(*material, name, value);
         }
     }
 }
 
-void write_sun(xml::TextEdits& edits, std::string_view text, const WorldTree& tree, const Entry& e, Sun sun) {
+void write_sun(SdfEdit& to, const Entry& e, Sun sun) {
     const double a = sun.azimuth * degree, h = sun.elevation * degree;
     const auto part = [](double v) { return number_text(std::round(v * 1e6) / 1e6); };
-    set_value(edits, text, tree.layout, *e.element, "direction",
-              fmt::format("{} {} {}", part(-std::cos(a) * std::cos(h)), part(-std::sin(a) * std::cos(h)),
-                          part(-std::sin(h))));
+    to.set_value(*e.element, "direction",
+                 fmt::format("{} {} {}", part(-std::cos(a) * std::cos(h)), part(-std::sin(a) * std::cos(h)),
+                             part(-std::sin(h))));
 }
 
-void write_site(xml::TextEdits& edits, std::string_view text, const Entry& e, std::size_t word,
-                double value) {
-    const auto at = words(text, e.element->content);
-    if (word < at.size()) edits.replace(at[word], number_text(value));
-}
-
-void write_name(xml::TextEdits& edits, std::string_view text, const WorldTree& tree, const Entry& e,
-                const std::string& name) {
+void write_name(SdfEdit& to, const Entry& e, const std::string& name) {
     const auto value = xml::encoded(name);
-    if (const auto* a = e.state ? e.state->attribute("name") : nullptr)
-        edits.replace(a->whole, fmt::format("name=\"{}\"", value));
-    if (e.form != Entry::Form::include) {
-        // With its quotes: the name may hold those that the author has.
-        if (const auto* a = e.element->attribute("name"))
-            edits.replace(a->whole, fmt::format("name=\"{}\"", value));
-    } else if (child(*e.element, "name")) {
-        set_value(edits, text, tree.layout, *e.element, "name", value);
-    } else {
-        const std::string added = "<name>" + value + "</name>";
-        const auto piece = xml::scan(added);
-        xml::insert_into(edits, text, *e.element, nullptr, tree.layout, {{added, &piece}});
-    }
+    const bool included = e.form == Entry::Form::include;
+    for (const auto* element : {e.state, included ? nullptr : e.element})
+        if (const auto* a = element ? element->attribute("name") : nullptr)
+            // With its quotes: the name may hold those that the author has.
+            to.edits.replace(a->whole, fmt::format("name=\"{}\"", value));
+    if (!included) return;
+    if (child(*e.element, "name"))
+        to.set_value(*e.element, "name", value);
+    else
+        to.insert(*e.element, nullptr, "<name>" + value + "</name>");
 }
 
 }  // namespace
@@ -291,49 +278,49 @@ bool is_own(const Entry& e, std::string_view property) {
     return std::ranges::find(own, property) != std::end(own);
 }
 
-void write_pose(xml::TextEdits& edits, std::string_view text, const WorldTree& tree, const Entry& e,
-                const PoseText& pose) {
-    set_pose(edits, text, tree.layout, e.placed_by(), pose);
+void write_pose(SdfEdit& to, const Entry& e, const PoseText& pose) {
+    to.set_pose(e.placed_by(), pose);
     if (!e.state) return;
     for (const auto& part : e.state->children)  // their poses are those in the world before
-        if (part.name == "link" || part.name == "model") edits.cut(text, part.whole);
+        if (part.name == "link" || part.name == "model") to.edits.cut(to.text, part.whole);
 }
 
-void write_property(xml::TextEdits& edits, std::string_view text, const WorldTree& tree, const Entry& e,
-                    const ItemProperty& p, const std::string& value) {
+void write_property(SdfEdit& to, const Entry& e, const ItemProperty& p, const std::string& value) {
     const double v = parse_number<double>(value).value_or(0);
     const auto& name = p.name;
-    if (e.form == Entry::Form::site)
-        return write_site(edits, text, e, name == "x" ? 0 : name == "y" ? 1 : 2, v);
-    if (name == "name") return write_name(edits, text, tree, e, value);
-    if (name == "model") return set_value(edits, text, tree.layout, *e.element, "uri", xml::encoded(value));
-    if (name == "color") return write_colour(edits, text, tree, e, value);
-    if (name == "movable")
-        return set_value(edits, text, tree.layout, *e.element, "static", value == "1" ? "false" : "true");
+    if (e.form == Entry::Form::site) {
+        const auto at = words(to.text, e.element->content);
+        const std::size_t word = name == "x" ? 0 : name == "y" ? 1 : 2;
+        if (word < at.size()) to.edits.replace(at[word], number_text(v));
+        return;
+    }
+    if (name == "name") return write_name(to, e, value);
+    if (name == "model") return to.set_value(*e.element, "uri", xml::encoded(value));
+    if (name == "color") return write_colour(to, e, value);
+    if (name == "movable") return to.set_value(*e.element, "static", value == "1" ? "false" : "true");
     if (name == "friction") {
-        for (const auto* c : collisions(e))
-            set_value(edits, text, tree.layout, *c, "surface/friction/ode/mu", number_text(v));
+        for (const auto* c : collisions(e)) to.set_value(*c, "surface/friction/ode/mu", number_text(v));
         return;
     }
     if (name == "azimuth" || name == "elevation") {
         auto sun = sun_of(e.body);
         (name == "azimuth" ? sun.azimuth : sun.elevation) = v;
-        return write_sun(edits, text, tree, e, sun);
+        return write_sun(to, e, sun);
     }
     for (const ValueRow& r : rows_of(e))
         if (r.name == name) {
             const auto one = number_text(v);
-            return set_value(edits, text, tree.layout, *e.element, r.path,
-                             name == "ambient" ? fmt::format("{0} {0} {0} 1", one) : one);
+            return to.set_value(*e.element, r.path,
+                                name == "ambient" ? fmt::format("{0} {0} {0} 1", one) : one);
         }
     for (const auto& [length, old] : common_lengths(e))
-        if (length.name == name) return write_length(edits, text, e, length, old, v);
-    auto pose = e.pose(text);
+        if (length.name == name) return write_length(to, e, length, old, v);
+    auto pose = e.pose(to.text);
     if (name == "x") pose.x = v;
     if (name == "y") pose.y = v;
     if (name == "z") pose.z = v;
     if (name == "heading") pose.yaw = v * degree;
-    write_pose(edits, text, tree, e, pose);
+    write_pose(to, e, pose);
 }
 
 }  // namespace forage::bug

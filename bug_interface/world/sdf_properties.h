@@ -17,11 +17,9 @@ std::vector<ItemProperty> properties_of(std::string_view text, const Entry& entr
 bool is_own(const Entry& entry, std::string_view property);
 
 /// Writes where an entry of the world stands.
-void write_pose(xml::TextEdits& edits, std::string_view text, const WorldTree& tree, const Entry& entry,
-                const PoseText& pose);
+void write_pose(SdfEdit& to, const Entry& entry, const PoseText& pose);
 /// Writes a property of an entry whose element stands in the world's text. The value fits the property.
-void write_property(xml::TextEdits& edits, std::string_view text, const WorldTree& tree, const Entry& entry,
-                    const ItemProperty& property, const std::string& value);
+void write_property(SdfEdit& to, const Entry& entry, const ItemProperty& property, const std::string& value);
 
 /// "#ff8000" as red, green, blue and opacity of a file. Throws std::invalid_argument for other texts.
 std::string colour_text(const std::string& hex);

@@ -121,15 +121,12 @@ PoseText pose_of(std::string_view text, const SourceElement& parent) {
     return {v[0], v[1], v[2], unit * v[3], unit * v[4], unit * v[5]};
 }
 
-void append(xml::TextEdits& edits, std::string_view text, const xml::Layout& layout,
-            const SourceElement& parent, std::string_view added) {
+void SdfEdit::insert(const SourceElement& parent, const SourceElement* after, std::string_view added) {
     const auto piece = xml::scan(added);
-    const auto* last = parent.children.empty() ? nullptr : &parent.children.back();
-    xml::insert_into(edits, text, parent, last, layout, {{added, &piece}});
+    xml::insert_into(edits, text, parent, after, layout, {{added, &piece}});
 }
 
-void set_value(xml::TextEdits& edits, std::string_view text, const xml::Layout& layout,
-               const SourceElement& parent, std::string_view path, std::string_view value) {
+void SdfEdit::set_value(const SourceElement& parent, std::string_view path, std::string_view value) {
     const auto* e = &parent;
     std::string_view word;
     for (std::string_view rest = path; !rest.empty(); path = rest) {
@@ -151,21 +148,18 @@ void set_value(xml::TextEdits& edits, std::string_view text, const xml::Layout& 
         before += fmt::format("<{}>", word);
         after = fmt::format("</{}>", word.substr(0, word.find(' '))) + after;
     }
-    append(edits, text, layout, *e, before + std::string(value) + after);
+    append(*e, before + std::string(value) + after);
 }
 
-void set_pose(xml::TextEdits& edits, std::string_view text, const xml::Layout& layout,
-              const SourceElement& parent, const PoseText& pose) {
+void SdfEdit::set_pose(const SourceElement& parent, const PoseText& pose) {
     const auto* e = child(parent, "pose");
     const auto old = e ? words(text, e->content) : std::vector<Span>();
     const auto was = pose_of(text, parent);
     if (old.size() != 6 && old.size() != 7) {
         const std::string value = fmt::format("{} {} {} 0 0 {}", number_text(pose.x), number_text(pose.y),
                                               number_text(pose.z), number_text(pose.yaw));
-        if (e || parent.name == "include") return set_value(edits, text, layout, parent, "pose", value);
-        const std::string added = "<pose>" + value + "</pose>";  // of a model, a pose is the first element
-        const auto piece = xml::scan(added);
-        return xml::insert_into(edits, text, parent, nullptr, layout, {{added, &piece}});
+        if (e || parent.name == "include") return set_value(parent, "pose", value);
+        return insert(parent, nullptr, "<pose>" + value + "</pose>");  // of a model, the first element
     }
     const auto set = [&](std::size_t i, double value) {
         if (parse_number<double>(old[i].of(text)) != value) edits.replace(old[i], number_text(value));

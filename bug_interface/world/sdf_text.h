@@ -39,16 +39,25 @@ struct PoseText {
 /// The <pose> in an element; zeros without one.
 PoseText pose_of(std::string_view text, const xml::SourceElement& parent);
 
-/// Replaces the content of the element at `path` below `parent`. What is missing of the path is added; a word
-/// of it may hold attributes for this case: "physics type=\"ode\"/max_step_size".
-void set_value(xml::TextEdits& edits, std::string_view text, const xml::Layout& layout,
-               const xml::SourceElement& parent, std::string_view path, std::string_view value);
-/// Adds an element to the others in `parent`, at the end.
-void append(xml::TextEdits& edits, std::string_view text, const xml::Layout& layout,
-            const xml::SourceElement& parent, std::string_view added);
-/// Changes x, y, z and yaw of the <pose> in `parent`. Numbers that are the same keep their spelling.
-void set_pose(xml::TextEdits& edits, std::string_view text, const xml::Layout& layout,
-              const xml::SourceElement& parent, const PoseText& pose);
+/// Changes to a text.
+struct SdfEdit {
+    std::string_view text;
+    const xml::Layout& layout;
+    xml::TextEdits edits = {};
+
+    /// Replaces the content of the element at `path` below `parent`. What is missing of the path is added; a
+    /// word of it may hold attributes for this case: "physics type=\"ode\"/max_step_size".
+    void set_value(const xml::SourceElement& parent, std::string_view path, std::string_view value);
+    /// Adds an element to the others in `parent`, behind `after`, or as the first one when that is null.
+    void insert(const xml::SourceElement& parent, const xml::SourceElement* after, std::string_view added);
+    /// Adds an element at the end of `parent`.
+    void append(const xml::SourceElement& parent, std::string_view added) {
+        insert(parent, parent.children.empty() ? nullptr : &parent.children.back(), added);
+    }
+    /// Changes x, y, z and yaw of the <pose> in `parent`. Numbers that are the same keep their spelling.
+    void set_pose(const xml::SourceElement& parent, const PoseText& pose);
+    std::string applied() const { return edits.applied(text); }
+};
 
 /// The elements of a world file that an editor needs. They are parts of the text, which must outlive it.
 struct WorldTree {

@@ -54,22 +54,20 @@ bool may_unpack(std::string_view text, const Entry& e) {
 std::string with_own_model(const std::string& text, const WorldTree& tree, const Entry& e) {
     const auto& model = *e.body.element;
     const auto layout = xml::layout_of(e.body.text, e.body.root);
-    xml::TextEdits edits;
+    SdfEdit to{e.body.text, layout};
     if (const auto* name = model.attribute("name"))
-        edits.replace(name->whole, fmt::format("name=\"{}\"", xml::encoded(e.name)));
+        to.edits.replace(name->whole, fmt::format("name=\"{}\"", xml::encoded(e.name)));
     for (const char* element : {"pose", "static"}) {  // those of the <include> count
         const auto* set = child(*e.element, element);
         if (!set) continue;
-        const std::string added(set->whole.of(text));
-        const auto piece = xml::scan(added);
         if (const auto* own = child(model, element))
-            edits.replace(own->whole, added);
+            to.edits.replace(own->whole, std::string(set->whole.of(text)));
         else
-            xml::insert_into(edits, e.body.text, model, nullptr, layout, {{added, &piece}});
+            to.insert(model, nullptr, set->whole.of(text));
     }
     for (const auto& plugin : e.element->children)
-        if (plugin.name == "plugin") append(edits, e.body.text, layout, model, plugin.whole.of(text));
-    const auto file = edits.applied(e.body.text);
+        if (plugin.name == "plugin") to.append(model, plugin.whole.of(text));
+    const auto file = to.applied();
     const auto root = xml::scan(file);
     const auto* own = &root.children[static_cast<std::size_t>(&model - e.body.root.children.data())];
     const auto place = place_of(text, tree, *e.element);
