@@ -4,14 +4,11 @@
 #include <fmt/format.h>
 
 #include "bug_interface/simulation/world.h"
+#include "core/base/sequence.h"
 
 namespace forage::bug {
 
-std::vector<std::string> World::robot_names() const {
-    std::vector<std::string> names;
-    for (const Robot& robot : robots_) names.push_back(robot.name);
-    return names;
-}
+std::vector<std::string> World::robot_names() const { return names_of(robots_); }
 
 std::optional<std::size_t> World::find(std::string_view bug) const {
     for (std::size_t i = 0; i < robots_.size(); ++i)
@@ -50,9 +47,7 @@ Eigen::Vector2d World::looks_at(std::size_t bug) const {
 
 std::vector<std::string> World::patch_colours() const {
     patches_ = &surroundings_->patches();
-    std::vector<std::string> out;
-    for (const Patch& patch : *patches_) out.push_back(patch.colour);
-    return out;
+    return collected(*patches_, &Patch::colour);
 }
 
 std::optional<std::size_t> World::patch_in_view(std::size_t bug) const {

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "core/base/sequence.h"
+
 namespace forage::bug {
 namespace {
 
@@ -41,11 +43,7 @@ std::optional<Material> named_material(std::string_view name) {
     return {};
 }
 
-std::vector<std::string> material_names() {
-    std::vector<std::string> out;
-    for (const NamedMaterial& m : named_materials()) out.push_back(m.name);
-    return out;
-}
+std::vector<std::string> material_names() { return names_of(named_materials()); }
 
 std::string hex_of(const Colour& colour) {
     const auto part = [&](int i) { return std::lround(std::clamp(colour(i), 0.0f, 1.0f) * 255); };

@@ -13,6 +13,7 @@
 #include "core/base/installation.h"
 #include "core/base/number.h"
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 #include "core/base/text_file.h"
 #include "core/xml/check.h"
 
@@ -31,9 +32,7 @@ std::string lower(std::string_view text) {
 constexpr const char* what_to_write = "<sdf version=\"1.4\">model.sdf</sdf>";
 
 /// Whether a path from a folder can lead out of it.
-bool leads_out(const fs::path& path) {
-    return path.is_absolute() || std::ranges::find(path, "..") != path.end();
-}
+bool leads_out(const fs::path& path) { return path.is_absolute() || contains(path, ".."); }
 
 /// Whether a path, with all links followed, is in a folder.
 bool is_inside(const fs::path& folder, const fs::path& path) {
@@ -124,8 +123,7 @@ std::vector<std::string> ModelFolders::names() const {
 }
 
 std::string ModelFolders::hint(std::string_view uri, const std::vector<std::string>& names) {
-    if (!uri.starts_with(scheme) && std::ranges::find(names, uri) != names.end())
-        return fmt::format("write {}{}", scheme, uri);
+    if (!uri.starts_with(scheme) && contains(names, uri)) return fmt::format("write {}{}", scheme, uri);
     const std::string name(uri.starts_with(scheme) ? uri.substr(scheme.size()) : uri);
     std::vector<std::string> near;
     const auto take = [&](auto&& matches) {

@@ -1,6 +1,7 @@
 #include "bug_interface/world/model_texts.h"
 
 #include "bug_interface/world/sdf_edit.h"
+#include "core/base/sequence.h"
 
 namespace forage::bug {
 
@@ -19,9 +20,7 @@ const std::string& ModelTexts::of(const std::string& uri) {
 }
 
 std::vector<std::string> ModelTexts::uris() const {
-    std::vector<std::string> out;
-    for (const auto& name : folders_.names()) out.push_back("model://" + name);
-    return out;
+    return collected(folders_.names(), [](const std::string& name) { return "model://" + name; });
 }
 
 }  // namespace forage::bug

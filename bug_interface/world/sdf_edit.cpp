@@ -13,6 +13,7 @@
 #include "bug_interface/world/sdf_properties.h"
 #include "bug_interface/world/sdf_unpack.h"
 #include "core/base/number.h"
+#include "core/base/sequence.h"
 #include "core/xml/check.h"
 
 namespace forage::bug {
@@ -33,9 +34,7 @@ struct Opened {
             throw std::invalid_argument(fmt::format("nothing in the world is called '{}'", id));
         return *it;
     }
-    bool has(std::string_view name) const {
-        return std::ranges::find(entries, name, &Entry::name) != entries.end();
-    }
+    bool has(std::string_view name) const { return contains(entries, name, &Entry::name); }
 };
 
 std::vector<ItemPart> parts_of(const Entry& e) {
@@ -77,7 +76,7 @@ void check_single(const Opened& here, const std::string& kind) {
     static const std::map<std::string_view, const char*> single = {
         {"sun", "a sun"}, {"game", "rules of a game"}, {"trials", "rules of trials"}};
     const auto found = single.find(kind);
-    if (found != single.end() && std::ranges::find(here.entries, kind, &Entry::kind) != here.entries.end())
+    if (found != single.end() && contains(here.entries, kind, &Entry::kind))
         throw std::invalid_argument(
             fmt::format("there {} already {}", kind == "sun" ? "is" : "are", found->second));
 }

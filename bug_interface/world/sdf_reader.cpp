@@ -12,6 +12,7 @@
 
 #include "bug_interface/world/sdf_elements.h"
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 
 namespace forage::bug {
 namespace {
@@ -201,7 +202,7 @@ class Reader {
     /// file, which misleads only in what moves. Two robots of one name are an error in a world.
     void add(Model model, bool named, std::vector<Model>& models) {
         const auto is_robot = [](const Model& m) {
-            return std::ranges::find(m.plugins, "libvel_plugin.so", &Plugin::filename) != m.plugins.end();
+            return contains(m.plugins, "libvel_plugin.so", &Plugin::filename);
         };
         const auto same = std::ranges::find(models, model.name, &Model::name);
         if (same != models.end() && (named || !model.is_static) && !(is_robot(model) && is_robot(*same)))
@@ -275,12 +276,10 @@ class Reader {
         for (const xml::Element& e : state.children("model")) {
             const auto found = std::ranges::find(world.models, e["name"].view, &Model::name);
             if (found == world.models.end()) {
-                std::vector<std::string> names;
-                for (const Model& model : world.models) names.push_back(model.name);
                 diagnostics_.warning(
                     e.where(),
                     fmt::format("<state> names a model '{}' that the world does not have", e["name"].view),
-                    suggest(e["name"].view, names));
+                    suggest(e["name"].view, names_of(world.models)));
                 continue;
             }
             if (e.child("pose")) found->pose = in_.pose_of(e);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number.h"
+#include "core/base/sequence.h"
 #include "core/equations/compile.h"
 #include "core/model/constants.h"
 #include "core/model/lookup.h"
@@ -148,12 +149,12 @@ class Builder {
         std::vector<std::string> seen;
         const auto see = [&](const std::string& name, const Location& at, const char* what) {
             static const std::vector<std::string> inputs = {"exc", "inh", "mod", "pre", "post", "t", "dt"};
-            if (!is_equation_name(name) || std::ranges::find(inputs, name) != inputs.end())
+            if (!is_equation_name(name) || contains(inputs, name))
                 out_.error(at, fmt::format("'{}' cannot be the name of a {}", name, what),
                            "letters, digits and _, not first a digit; exc, inh, mod, pre, post, t, dt and "
                            "the words of "
                            "formulas and equations have a meaning of their own");
-            if (std::ranges::find(seen, name) != seen.end())
+            if (contains(seen, name))
                 out_.error(at, fmt::format("there is already a '{}' in this type", name),
                            "choose another name");
             seen.push_back(name);
@@ -163,7 +164,7 @@ class Builder {
     }
 
     Equations compile(const model::TypeDeclaration& d, bool synapse) {
-        const Vocabulary names{synapse, model::names_of(d.constants), model::names_of(d.states), outer_};
+        const Vocabulary names{synapse, names_of(d.constants), names_of(d.states), outer_};
         auto out =
             std::make_shared<Compiled>(equations::compile(text_of(d), names, [&](const FormulaError& e) {
                 out_.error(place(d, e.at), fmt::format("{}: {}", d.name, e.what()), e.hint);
@@ -173,7 +174,7 @@ class Builder {
             out_.warning(place(d, w.at), fmt::format("{}: {}", d.name, w.what()), w.hint);
         const auto warn_of_unused = [&](const auto& all, const char* what) {
             for (const auto& each : all)
-                if (std::ranges::find(out->unused, each.name) != out->unused.end())
+                if (contains(out->unused, each.name))
                     out_.warning(each.at,
                                  fmt::format("{}: no equation uses the {} '{}'", d.name, what, each.name));
         };
@@ -219,8 +220,7 @@ class Builder {
             if (own != d.constants.end()) {
                 defaults.push_back(value(own->value, own->value_at, name));
                 p.doc = own->doc, p.unit = own->unit;
-                p.is_time_constant =
-                    std::ranges::find(equations.time_constants, name) != equations.time_constants.end();
+                p.is_time_constant = contains(equations.time_constants, name);
                 if (p.is_time_constant) check_time_constant(*own, defaults.back());
                 if (own->minimum || own->maximum)
                     p.range = {own->minimum.value_or(-std::numeric_limits<double>::infinity()),
@@ -287,8 +287,7 @@ class Builder {
         for (const auto& [input, kind] : {std::pair(Read::Kind::exc, InputKind::excitatory),
                                           std::pair(Read::Kind::inh, InputKind::inhibitory),
                                           std::pair(Read::Kind::mod, InputKind::modulatory)})
-            out.reads[static_cast<std::size_t>(kind)] =
-                !sound || std::ranges::find(equations->reads, Read{input}) != equations->reads.end();
+            out.reads[static_cast<std::size_t>(kind)] = !sound || contains(equations->reads, Read{input});
         out.inputs = equations->inputs;
         for (std::size_t i = 0; i < out.inputs.size(); ++i) out.reads[input_kinds + i] = true;
         out.make = [equations, defaults] { return std::make_unique<Neuron>(equations, defaults); };
@@ -348,8 +347,7 @@ std::vector<EquationLine> lines(const model::TypeDeclaration& type) {
         if (written.empty()) continue;
         auto& line = out.emplace_back(EquationLine{std::string(written), place(type, begin).line, {}});
         for (const auto& s : statements)
-            if (s.at >= begin && s.at < end &&
-                std::ranges::find(line.computes, s.name) == line.computes.end())
+            if (s.at >= begin && s.at < end && !contains(line.computes, s.name))
                 line.computes.push_back(s.name);
     }
     return out;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/diagnostic.h"
+#include "core/base/sequence.h"
 
 namespace forage::equations {
 namespace {
@@ -121,9 +122,7 @@ class Reader {
     static bool is_when(std::string_view text) {
         return begins_with_word(text, "when") && assignment_in(text) != word_of(text).size();
     }
-    static bool begins_with_keyword(std::string_view text) {
-        return std::ranges::find(keywords, word_of(text)) != keywords.end();
-    }
+    static bool begins_with_keyword(std::string_view text) { return contains(keywords, word_of(text)); }
 
     void statement(const Piece& line) {
         if (!is_when(line.text)) return assignment(line, {}, false);
@@ -177,8 +176,7 @@ class Reader {
 
 bool is_equation_name(std::string_view name) {
     constexpr std::array<std::string_view, 4> others = {"normal", "uniform", "nan", "inf"};
-    return is_formula_name(name) && std::ranges::find(keywords, name) == keywords.end() &&
-           std::ranges::find(others, name) == others.end();
+    return is_formula_name(name) && !contains(keywords, name) && !contains(others, name);
 }
 
 std::vector<Statement> read_statements(std::string_view text, const Report& report) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/sequence.h"
 #include "core/model/arrays.h"
 #include "core/model/constants.h"
 #include "core/model/lookup.h"
@@ -14,12 +15,6 @@
 
 namespace forage::model {
 namespace {
-
-template <class Items>
-auto find_in(Items& items, std::string_view id) -> decltype(&items.front()) {
-    const auto it = std::ranges::find_if(items, [&](const auto& item) { return item.id == id; });
-    return it == items.end() ? nullptr : &*it;
-}
 
 /// The ids of all items. They are views of the system's.
 std::unordered_set<std::string_view> all_ids(const System& system) {
@@ -100,7 +95,7 @@ std::string add_free_prefix(const System& system, std::string prefix, std::strin
 void take_over_types(System& system, System& other) {
     const auto take_over = [](auto& all, auto& more) {
         for (auto& type : more)
-            if (std::ranges::find(all, type) == all.end()) all.push_back(std::move(type));
+            if (!contains(all, type)) all.push_back(std::move(type));
     };
     take_over(system.neuron_types, other.neuron_types);
     take_over(system.synapse_types, other.synapse_types);
@@ -172,20 +167,24 @@ std::string add_canvas_comment(System& system, std::string_view process, CanvasC
     return page.back().id;
 }
 
-Process* find_process(System& system, std::string_view id) { return find_in(system.processes, id); }
+Process* find_process(System& system, std::string_view id) {
+    return find_by(system.processes, id, &Process::id);
+}
 
 Group* find_group(System& system, std::string_view id) {
     for (auto& p : system.processes)
-        if (Group* g = find_in(p.groups, id)) return g;
+        if (Group* g = find_by(p.groups, id, &Group::id)) return g;
     return nullptr;
 }
 
-Connection* find_connection(System& system, std::string_view id) { return find_in(system.connections, id); }
+Connection* find_connection(System& system, std::string_view id) {
+    return find_by(system.connections, id, &Connection::id);
+}
 
 CanvasComment* find_canvas_comment(System& system, std::string_view id) {
     for (auto& p : system.processes)
-        if (auto* c = find_in(p.canvas_comments, id)) return c;
-    return find_in(system.canvas_comments, id);
+        if (auto* c = find_by(p.canvas_comments, id, &CanvasComment::id)) return c;
+    return find_by(system.canvas_comments, id, &CanvasComment::id);
 }
 
 void forget_phantoms(System& system) {
@@ -216,12 +215,12 @@ void remove(System& system, std::string_view id) {
     if (std::erase_if(system.connections, is_it)) return forget_phantoms(system);
     if (std::erase_if(system.canvas_comments, is_it)) return;
     for (auto& p : system.processes) {
-        if (find_in(p.canvas_comments, id)) {
+        if (find_by(p.canvas_comments, id, &CanvasComment::id)) {
             refuse_linked(p);
             std::erase_if(p.canvas_comments, is_it);
             return;
         }
-        if (find_in(p.groups, id)) {
+        if (find_by(p.groups, id, &Group::id)) {
             refuse_linked(p);
             forget_groups(system, IdSet{std::string(id)});
             std::erase_if(p.groups, is_it);
@@ -297,7 +296,7 @@ ProcessFile extract_process(const System& system, std::string_view id) {
     keep_references(out.process, [&](const std::string& target) { return groups.contains(target); });
     const auto open_port = [&](const std::string& group) {
         auto& ports = out.process.ports;
-        if (groups.contains(group) && std::ranges::find(ports, group, &Port::group) == ports.end())
+        if (groups.contains(group) && !contains(ports, group, &Port::group))
             ports.push_back({.name = group, .group = group, .at = {}, .name_at = {}, .group_at = {}});
     };
     for (const auto& c : system.connections)
@@ -308,8 +307,7 @@ ProcessFile extract_process(const System& system, std::string_view id) {
             open_port(c.source), open_port(c.target);
         }
     for (const auto& c : system.constants)  // on which its formulas may depend
-        if (std::ranges::find(it->constants, c.name, &Constant::name) == it->constants.end())
-            out.process.constants.push_back(c);
+        if (!contains(it->constants, c.name, &Constant::name)) out.process.constants.push_back(c);
     const auto copy_used = [](const auto& all, auto& to, auto is_used) {
         std::ranges::copy_if(all, std::back_inserter(to),
                              [&](const TypeDeclaration& type) { return is_used(type.name); });
@@ -386,7 +384,7 @@ void shorten(std::span<Process> processes, std::span<Connection> connections) {
 void rename(System& system, std::string_view id, std::string name) {
     if (trim(name).empty()) throw Refused("a name cannot be empty", "write at least one letter or digit");
     for (auto& p : system.processes) {
-        auto* g = p.id == id ? nullptr : find_in(p.groups, id);
+        auto* g = p.id == id ? nullptr : find_by(p.groups, id, &Group::id);
         if (p.id != id && !g) continue;
         refuse_linked(p);
         (g ? g->name : p.name) = std::move(name);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number.h"
+#include "core/base/sequence.h"
 #include "core/model/arrays.h"
 #include "core/model/lookup.h"
 #include "core/model/parts.h"
@@ -26,7 +27,7 @@ std::vector<std::string> names_in(const System& system, const Process* process) 
     std::vector<std::string> out;
     const auto add = [&](const std::vector<Constant>& all) {
         for (const auto& c : all)
-            if (std::ranges::find(out, c.name) == out.end()) out.push_back(c.name);
+            if (!contains(out, c.name)) out.push_back(c.name);
     };
     for (; process; process = outer(system, *process)) add(process->constants);
     add(system.constants);
@@ -35,8 +36,7 @@ std::vector<std::string> names_in(const System& system, const Process* process) 
 }
 
 const Constant* named(const std::vector<Constant>& all, std::string_view name) {
-    const auto it = std::ranges::find(all, name, &Constant::name);
-    return it == all.end() ? nullptr : &*it;
+    return find_by(all, name, &Constant::name);
 }
 
 /// The constant of the system that a name says, or "Process.name" for one of a process.
@@ -125,8 +125,8 @@ std::vector<Setting> defaults_of(const TypeDeclaration& type, const System& syst
 /// Finds the defaults of declared types in all their uses.
 void set_defaults(System& system) {
     const auto set = [&](TypeUse& use, const std::vector<TypeDeclaration>& declared, const Process* process) {
-        const auto it = std::ranges::find(declared, use.type, &TypeDeclaration::name);
-        use.defaults = it == declared.end() ? std::vector<Setting>() : defaults_of(*it, system, process);
+        const auto* type = find_by(declared, use.type, &TypeDeclaration::name);
+        use.defaults = type ? defaults_of(*type, system, process) : std::vector<Setting>();
     };
     for (auto& p : system.processes)
         for (auto& g : p.groups) set(g.neuron, system.neuron_types, &p);
@@ -404,8 +404,7 @@ Constant* find_constant(System& system, std::string_view name) {
 }
 
 std::vector<std::string> constant_names(const System& system) {
-    std::vector<std::string> out;
-    for (const auto& c : system.constants) out.push_back(c.name);
+    auto out = names_of(system.constants);
     for (const auto& p : system.processes)
         for (const auto& c : p.constants) out.push_back(fmt::format("{}.{}", trim(p.name), c.name));
     return out;

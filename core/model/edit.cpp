@@ -10,6 +10,7 @@
 
 #include "core/base/printable.h"
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 #include "core/model/arrays.h"
 #include "core/model/build.h"
 #include "core/model/constants.h"
@@ -99,11 +100,6 @@ void set_constant(System& system, const Assignment& a, Diagnostics& diagnostics)
     compute(system, diagnostics);
 }
 
-template <class Items>
-auto& with_id(Items& items, std::string_view id) {
-    return *std::ranges::find_if(items, [&](const auto& item) { return item.id == id; });
-}
-
 /// The process whose constants hold in the item of an assignment; null when only those of the system do.
 const Process* scope_of(const System& system, const Assignment& a) {
     const GroupIndex groups(system);
@@ -111,9 +107,9 @@ const Process* scope_of(const System& system, const Assignment& a) {
         case Assignment::Owner::group:
             return groups.find(a.id).process;
         case Assignment::Owner::process:
-            return &with_id(system.processes, a.id);
+            return find_by(system.processes, a.id, &Process::id);
         case Assignment::Owner::connection:
-            return model::scope_of(with_id(system.connections, a.id), groups);
+            return model::scope_of(*find_by(system.connections, a.id, &Connection::id), groups);
         case Assignment::Owner::constant:
             break;
     }
@@ -156,14 +152,13 @@ std::optional<Assignment> resolve(const System& system, const Registry& registry
                        owner.use ? fmt::format("the type '{}' is not known", owner.use->type)
                                  : "this process has no module",
                        "");
-    const auto it = std::ranges::find(*owner.parameters, parameter.text, &Parameter::name);
-    if (it == owner.parameters->end()) {
+    out.parameter = find_by(*owner.parameters, parameter.text, &Parameter::name);
+    if (!out.parameter) {
         auto known = names_of(*owner.parameters);
         if (is_process) known.emplace_back("enableModule");
         return problem(parameter, fmt::format("{} has no parameter '{}'", owner.use->type, parameter.text),
                        suggest(parameter.text, known));
     }
-    out.parameter = &*it;
     return out;
 }
 
@@ -172,9 +167,9 @@ template <class S>  // System or const System
 auto& use_of(S& system, const Assignment& a) {
     using Use = std::conditional_t<std::is_const_v<S>, const TypeUse, TypeUse>;
     if (a.owner == Assignment::Owner::process)
-        return static_cast<Use&>(*with_id(system.processes, a.id).module);
+        return static_cast<Use&>(*find_by(system.processes, a.id, &Process::id)->module);
     if (a.owner == Assignment::Owner::connection)
-        return static_cast<Use&>(*with_id(system.connections, a.id).synapse);
+        return static_cast<Use&>(*find_by(system.connections, a.id, &Connection::id)->synapse);
     for (auto& p : system.processes)
         for (auto& g : p.groups)
             if (g.id == a.id) return static_cast<Use&>(g.neuron);
@@ -283,7 +278,7 @@ std::optional<Assignment> find_item(const System& system, std::string_view where
 
 ParameterValue value_of(const System& system, const Assignment& a) {
     if (a.owner == Assignment::Owner::constant) return Constants(system).value_of(a.id).value_or(0);
-    if (!a.parameter) return with_id(system.processes, a.id).module_enabled;
+    if (!a.parameter) return find_by(system.processes, a.id, &Process::id)->module_enabled;
     if (const auto* s = use_of(system, a).setting(a.parameter->name))
         if (auto value = parse_parameter(a.parameter->kind, s->in_force(a.parameter->kind)))
             return *std::move(value);
@@ -294,7 +289,7 @@ void unset(System& system, const Assignment& a) {
     if (a.parameter)
         std::erase_if(use_of(system, a).settings, [&](const auto& s) { return s.name == a.parameter->name; });
     else
-        with_id(system.processes, a.id).module_enabled = true;
+        find_by(system.processes, a.id, &Process::id)->module_enabled = true;
 }
 
 void move_files(System& system, const std::string& from, const std::string& to, const Registry& registry) {

@@ -6,6 +6,7 @@
 
 #include "core/base/number.h"
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 #include "core/model/lookup.h"
 
 namespace forage::model {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 
 namespace forage::model {
 
@@ -86,9 +87,7 @@ std::vector<GroupIndex::Entry> find_groups(const System& system, std::string_vie
     auto paths = group_paths(system);
     for (const auto& p : system.processes)
         for (const auto& g : p.groups) groups.push_back({std::move(paths[groups.size()]), g.id, {&p, &g}});
-    std::vector<GroupIndex::Entry> out;
-    for (const int i : groups_named(groups, wanted)) out.push_back(groups[i].entry);
-    return out;
+    return collected(groups_named(groups, wanted), [&](int i) { return groups[i].entry; });
 }
 
 std::string first_words(std::string_view text) {

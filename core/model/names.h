@@ -11,14 +11,6 @@ namespace forage::model {
 /// `text` without blanks at its ends.
 std::string_view trim(std::string_view text);
 
-/// The names of all items, for hints.
-template <class Items>
-std::vector<std::string> names_of(const Items& items) {
-    std::vector<std::string> out;
-    for (const auto& item : items) out.push_back(item.name);
-    return out;
-}
-
 /// The positions of the items that fit.
 template <class Items, class Fits>
 std::vector<int> positions(const Items& items, Fits fits) {

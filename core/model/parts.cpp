@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/sequence.h"
 #include "core/model/build.h"
 #include "core/model/lookup.h"
 #include "core/model/refused.h"
@@ -108,7 +109,7 @@ void leave_types(std::vector<TypeDeclaration>& all, const std::vector<TypeDeclar
                  const std::set<std::string_view>& used) {
     std::erase_if(all, [&](const TypeDeclaration& type) {
         return !type.linked && !used.contains(type.name) &&
-               std::ranges::find(in_file, type.name, &TypeDeclaration::name) != in_file.end();
+               contains(in_file, type.name, &TypeDeclaration::name);
     });
 }
 
@@ -116,8 +117,7 @@ void leave_types(std::vector<TypeDeclaration>& all, const std::vector<TypeDeclar
 
 const Process* outer(const System& system, const Process& process) {
     if (process.within.empty()) return nullptr;
-    const auto it = std::ranges::find(system.processes, process.within, &Process::id);
-    return it == system.processes.end() ? nullptr : &*it;
+    return find_by(system.processes, process.within, &Process::id);
 }
 
 bool is_open_port(const System& system, std::string_view name) {
@@ -195,7 +195,7 @@ MadePart make_part(System& system, std::string_view id, const std::string& path)
     use.id = before.id, use.name = before.name, use.icon = before.icon, use.path = path;
     use.comments = before.comments, use.phantoms = before.phantoms;
     for (const auto& c : part.constants)
-        if (std::ranges::find(before.constants, c.name, &Constant::name) == before.constants.end()) {
+        if (!contains(before.constants, c.name, &Constant::name)) {
             Constant given;
             given.name = c.name, given.value = "{" + c.name + "}";
             give(use, given);
@@ -207,8 +207,7 @@ MadePart make_part(System& system, std::string_view id, const std::string& path)
     Names names, ends;
     for (const auto& [was, is] : shortened) {
         names[was] = prefix + is;
-        const bool is_comment =
-            std::ranges::find(part.canvas_comments, is, &CanvasComment::id) != part.canvas_comments.end();
+        const bool is_comment = contains(part.canvas_comments, is, &CanvasComment::id);
         if (was != prefix + is && !is_comment) out.renamed.push_back(prefix + is);
     }
     for (const auto& port : part.ports)

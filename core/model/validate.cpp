@@ -11,6 +11,7 @@
 #include "core/base/exception_message.h"
 #include "core/base/named_file.h"
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 #include "core/model/arrays.h"
 #include "core/model/constants.h"
 #include "core/model/lookup.h"
@@ -21,8 +22,7 @@ namespace forage::model {
 namespace {
 
 const Parameter* find_parameter(const std::vector<Parameter>& parameters, std::string_view name) {
-    const auto it = std::ranges::find(parameters, name, &Parameter::name);
-    return it == parameters.end() ? nullptr : &*it;
+    return find_by(parameters, name, &Parameter::name);
 }
 
 std::string in_brackets(std::string_view sentence) {
@@ -352,7 +352,7 @@ class Validator {
                 ModulePort port;
                 port.name = r.name;
                 ports.push_back(port);
-            } else if (std::ranges::find(known, r.name) == known.end()) {
+            } else if (!contains(known, r.name)) {
                 meant.push_back(nearest(r.name, known));
                 out_.unknown(
                     r.at, fmt::format("{} has no cross reference '{}' in {}", use.type, r.name, holder),
@@ -370,8 +370,7 @@ class Validator {
             const bool set = it != references.end() && !it->target.empty();
             found.push_back({port.name, {}, {}});
             if (!set) {
-                const bool misspelt =
-                    it == references.end() && std::ranges::find(meant, port.name) != meant.end();
+                const bool misspelt = it == references.end() && contains(meant, port.name);
                 if (enabled && !port.optional && !(misspelt && !out_.lenient))
                     out_.add({Severity::error,
                               it == references.end() ? use.at : it->at,
@@ -442,11 +441,11 @@ class Validator {
         const auto target = end(c, c.target, c.target_at, "target");
         const auto type_of = [&](const Group* g) { return g ? registry_.neuron(g->neuron.type) : nullptr; };
         if (const NeuronType* type = type_of(source); type && !c.state.empty())
-            if (const auto known = names_of(type->states); std::ranges::find(known, c.state) == known.end())
+            if (const auto known = names_of(type->states); !contains(known, c.state))
                 out_.error(c.state_at, fmt::format("{} has no state '{}'", type->name, c.state),
                            suggest(c.state, known));
         if (const NeuronType* type = type_of(target); type && !c.input.empty()) {
-            if (std::ranges::find(type->inputs, c.input) == type->inputs.end())
+            if (!contains(type->inputs, c.input))
                 out_.error(c.input_at, fmt::format("{} has no further input '{}'", type->name, c.input),
                            type->inputs.empty() ? "a declared type has 'input NAME' among its equations"
                                                 : suggest(c.input, type->inputs));
@@ -540,7 +539,7 @@ class Validator {
     void check_feedback(const SynapseUse& use, const SynapseType& type, const Group* target) {
         const auto known = names_of(type.feedback);
         for (const auto& r : use.feedback)
-            if (std::ranges::find(known, r.name) == known.end())
+            if (!contains(known, r.name))
                 out_.unknown(r.at, fmt::format("{} has no feedback input '{}'", use.type, r.name),
                              known.empty() ? fmt::format("{} has none", use.type) : suggest(r.name, known));
         const NeuronType* neuron = target ? registry_.neuron(target->neuron.type) : nullptr;
@@ -548,7 +547,7 @@ class Validator {
         const auto states = names_of(neuron->states);
         for (const auto& f : type.feedback) {
             if (f.own) {
-                if (!f.state.empty() && std::ranges::find(states, f.state) == states.end())
+                if (!f.state.empty() && !contains(states, f.state))
                     out_.error(use.at,
                                fmt::format("{} reads '{}' of its target: {} has no state '{}'", use.type,
                                            f.name, neuron->name, f.state),
@@ -566,7 +565,7 @@ class Validator {
                                      neuron->name, separated(states, ", ")),
                          {},
                          f.name});
-            } else if (std::ranges::find(states, it->target) == states.end()) {
+            } else if (!contains(states, it->target)) {
                 out_.error(it->at, fmt::format("{} has no state '{}'", neuron->name, it->target),
                            suggest(it->target, states));
             }

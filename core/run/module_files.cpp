@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "core/base/output_files.h"
+#include "core/base/sequence.h"
 #include "core/run/result_files.h"
 
 namespace forage {
@@ -52,9 +53,7 @@ void ModuleFiles::after_cycle(RunView&) {
 }
 
 std::vector<std::string> ModuleFiles::file_names() const {
-    std::vector<std::string> out;
-    for (const auto& f : files_) out.push_back(f->name);
-    return out;
+    return collected(files_, [](const auto& f) { return f->name; });
 }
 
 void ModuleFiles::finish(RunView&, ResultFiles& files) {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 #include "core/model/constants.h"
 #include "core/run/environment.h"
 
@@ -84,7 +85,7 @@ void RunMeasures::read_formula(Entry& entry, Diagnostics& diagnostics) const {
     for (const auto& node : entry.formula->nodes()) {
         if (node.op != Formula::Op::name) continue;
         const std::string& name = entry.formula->name(node);
-        if (std::ranges::find(usable, name) != usable.end()) continue;
+        if (contains(usable, name)) continue;
         const auto meant = nearest(name, usable);
         report(node.at, fmt::format("there is no measure '{}' above it", name),
                !meant.empty()   ? fmt::format("did you mean '{}'?", meant)
@@ -93,11 +94,7 @@ void RunMeasures::read_formula(Entry& entry, Diagnostics& diagnostics) const {
     }
 }
 
-std::vector<model::Measure> RunMeasures::specs() const {
-    std::vector<model::Measure> out;
-    for (const auto& e : entries_) out.push_back(e.spec);
-    return out;
-}
+std::vector<model::Measure> RunMeasures::specs() const { return collected(entries_, &Entry::spec); }
 
 void RunMeasures::declare(engine::Demand& demand) const {
     for (const auto& e : entries_) {

@@ -6,6 +6,7 @@
 
 #include "core/base/number.h"
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 #include "core/model/names.h"
 #include "core/xml/check.h"
 #include "core/xml/source_tree.h"
@@ -134,7 +135,7 @@ std::string write_canvas_part(const CanvasPart& part) {
 std::string canvas_forms() {
     std::vector<std::string> forms;
     for (const auto& e : canvas().format.elements) {
-        auto names = model::names_of(e.attributes);
+        auto names = names_of(e.attributes);
         const auto last = names.back();
         names.pop_back();
         forms.push_back(fmt::format("{} with {} and {} {}", e.name, separated(names, ", "), last, e.doc));

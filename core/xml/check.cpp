@@ -11,8 +11,8 @@
 #include "core/base/number.h"
 #include "core/base/printable.h"
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 #include "core/formula/formula.h"
-#include "core/model/names.h"
 #include "core/types/parameter.h"
 
 namespace forage::xml {
@@ -127,7 +127,7 @@ class Checker {
                        fmt::format("<{}> holds {}, it needs {}", e.name(),
                                    chosen ? "only one element" : "no element", amount(rule)),
                        fmt::format("{} of <{}>", rule.choose > 1 ? "source, then target, each one" : "one",
-                                   separated(model::names_of(rule.children), ">, <")));
+                                   separated(names_of(rule.children), ">, <")));
         for (std::size_t i = 0; i < count.size(); ++i)
             if (const ChildRule& c = rule.children[i]; count[i] < c.least)
                 structural(e.where(), fmt::format("<{}> needs the element <{}>", e.name(), c.name),
@@ -206,7 +206,7 @@ class Checker {
     }
 
     std::string place_hint(const ElementRule& parent, const Element& e) const {
-        const std::vector<std::string> children = model::names_of(parent.children);
+        const std::vector<std::string> children = names_of(parent.children);
         std::vector<std::string_view> homes;
         for (const auto& other : format_.elements)
             for (const auto& c : other.children)
@@ -230,7 +230,7 @@ class Checker {
             } else if (format_.open) {
                 if (rule.value && rule.value->kind == ValueKind::any) continue;
                 if (a.name.starts_with("xmlns") || a.name.find(':') != std::string_view::npos) continue;
-                const auto known = model::names_of(rule.attributes), inside = model::names_of(rule.children);
+                const auto known = names_of(rule.attributes), inside = names_of(rule.children);
                 const auto child = nearest(a.name, inside);
                 note_inert(e.document().place(a.at),
                            fmt::format("<{}> has no attribute '{}': it has no effect", e.name(), a.name),
@@ -239,7 +239,7 @@ class Checker {
                            : known.empty() ? fmt::format("<{}> has no attributes", e.name())
                                            : suggest(a.name, known));
             } else {
-                const std::vector<std::string> known = model::names_of(rule.attributes);
+                const std::vector<std::string> known = names_of(rule.attributes);
                 meant.emplace_back(nearest(a.name, known));
                 out_.unknown(
                     e.document().place(a.at), fmt::format("<{}> has no attribute '{}'", e.name(), a.name),
@@ -249,7 +249,7 @@ class Checker {
         for (const AttributeRule& r : rule.attributes)
             if (r.required && !e[r.name]) {
                 sound_ = false;
-                if (!out_.lenient && std::ranges::find(meant, r.name) != meant.end()) continue;
+                if (!out_.lenient && contains(meant, r.name)) continue;
                 out_.error(e.where(), fmt::format("<{}> needs the attribute '{}'", e.name(), r.name),
                            r.value.doc.empty() ? fmt::format("<{} {}=\"...\">", e.name(), r.name)
                                                : fmt::format("{}: {}", r.name, r.value.doc));
@@ -268,7 +268,7 @@ class Checker {
             if (!rule.may_be_empty)
                 out_.warning(v.where(), fmt::format("<{}> is empty and has no effect", subject.name));
         } else if (rule.kind == ValueKind::choice) {
-            if (std::ranges::find(rule.choices, v.view) == rule.choices.end())
+            if (!contains(rule.choices, v.view))
                 out_.error(v.where(),
                            fmt::format("'{}' is not one of {}", v.view, separated(rule.choices, ", ")),
                            suggest(v.view, rule.choices));
@@ -364,7 +364,7 @@ std::unique_ptr<const Document> open(const std::string& path, std::string text, 
                                     format.max_nodes, diagnostics);
     if (!document) return nullptr;
     const std::string_view name = document->root().name();
-    if (std::ranges::find(format.roots, name) != format.roots.end()) return document;
+    if (contains(format.roots, name)) return document;
     const std::string_view known = what_begins_with(name);
     diagnostics.error(
         document->root().where(),

@@ -11,6 +11,7 @@
 
 #include "core/base/number.h"
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 #include "core/xml/check.h"
 #include "core/xml/experiment_elements.h"
 
@@ -268,9 +269,7 @@ class ExperimentReader {
 
     /// The words of a list with blanks between them.
     static std::vector<model::Expression> expressions(const Value& list) {
-        std::vector<model::Expression> out;
-        for (const Value& word : list.words()) out.push_back(written(word));
-        return out;
+        return collected(list.words(), written);
     }
 
     /// The number of runs, at most `max_runs` + 1.

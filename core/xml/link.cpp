@@ -9,6 +9,7 @@
 
 #include "core/base/named_file.h"
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 #include "core/model/lookup.h"
 #include "core/model/parts.h"
 
@@ -134,8 +135,7 @@ class Linker {
             plain_.emplace(std::filesystem::canonical(file).string(), system_.processes.size());
         if (fresh) return false;
         const auto& first = system_.processes[it->second];
-        std::vector<std::string> ids;
-        for (const auto& g : first.groups) ids.push_back(g.id);
+        auto ids = collected(first.groups, &model::Group::id);
         for (const auto& c : system_.connections)
             if (c.linked && c.at.file && own.at.file && c.at.file->path == own.at.file->path)
                 ids.push_back(c.id);
@@ -186,8 +186,7 @@ class Linker {
     }
 
     void give_constants(model::Process& own, const model::Process& place) {
-        std::vector<std::string> names;
-        for (const auto& c : own.constants) names.push_back(c.name);
+        const auto names = names_of(own.constants);
         for (std::set<std::string_view> set; const auto& c : place.constants) {
             const auto it = std::ranges::find(own.constants, c.name, &model::Constant::name);
             if (!set.insert(c.name).second) {
@@ -267,22 +266,22 @@ class Linker {
             std::set<std::string_view> known;
             for (const auto& port : p.placeholder.front().ports) {
                 known.insert(port.name);
-                if (std::ranges::find(open, port.name) == open.end()) {
+                if (!contains(open, port.name)) {
                     out_.error(port.name_at,
                                fmt::format("'{}' has no port '{}' without a group", p.path, port.name),
                                suggest(port.name, open));
                 } else if (std::string group = port.group; group.empty()) {
                     out_.error(port.at, fmt::format("the port '{}' gets no group", port.name),
                                "group=\"...\": the id of a group, or a port of another part");
-                } else if (!enter(group, port.group_at) && std::ranges::find(groups, group) == groups.end()) {
+                } else if (!enter(group, port.group_at) && !contains(groups, group)) {
                     out_.error(port.group_at, fmt::format("there is no group '{}' here", group),
                                suggest(group, names));
                 } else if (!given.emplace(p.id + "." + port.name, group).second) {
                     out_.error(port.name_at, fmt::format("the port '{}' gets two groups", port.name));
                 }
             }
-            const bool all_known = std::ranges::all_of(
-                known, [&](std::string_view name) { return std::ranges::find(open, name) != open.end(); });
+            const bool all_known =
+                std::ranges::all_of(known, [&](std::string_view name) { return contains(open, name); });
             for (const auto& name : open)
                 if (all_known && !known.contains(name))
                     out_.error(
@@ -310,8 +309,7 @@ class Linker {
                 out_.error(at, fmt::format("the id '{}' of this {} is already used", id, what),
                            "ids are unique over the whole file");
         };
-        std::vector<std::string> names;
-        for (const auto& [name, group] : model::groups_by_port(system_)) names.push_back(name);
+        auto names = collected(model::groups_by_port(system_), [](const auto& e) { return e.first; });
         for (const auto& g : system_.processes.front().groups)
             see(g.id, g.at, "group"), names.push_back(g.id);
         const auto refuse = [&](const Location& at, const std::string& what, const std::string& group) {
@@ -352,10 +350,10 @@ class Linker {
                 if (port.group.empty() && !is_part_)
                     out_.error(port.at, fmt::format("the port '{}' has no group", port.name),
                                "only the process of a process file can leave it to the uses of the file");
-                else if (!port.group.empty() && std::ranges::find(groups, port.group) == groups.end())
+                else if (!port.group.empty() && !contains(groups, port.group))
                     out_.error(port.group_at, fmt::format("there is no group '{}' here", port.group),
                                suggest(port.group, named));
-                if (port.name != port.group && std::ranges::find(groups, port.name) != groups.end())
+                if (port.name != port.group && contains(groups, port.name))
                     out_.error(port.name_at,
                                fmt::format("the port '{}' has the id of another group", port.name),
                                "give the port another name");

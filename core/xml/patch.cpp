@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/base/alignment.h"
+#include "core/base/sequence.h"
 #include "core/model/constants.h"
 #include "core/model/lookup.h"
 #include "core/xml/reader.h"
@@ -106,9 +107,7 @@ class Patcher {
 
     void children(const SourceElement& mine, const SourceElement& old, const SourceElement& wanted) {
         const auto keys = [](std::string_view text, const Elements& all) {
-            std::vector<std::string> out;
-            for (const auto& e : all) out.push_back(key_of(text, e));
-            return out;
+            return collected(all, [&](const auto& e) { return key_of(text, e); });
         };
         auto pairs = aligned(keys(before_, old.children), keys(after_, wanted.children));
         join_gaps(pairs, old.children, wanted.children);

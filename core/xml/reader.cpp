@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/sequence.h"
 #include "core/model/constants.h"
 #include "core/xml/canvas.h"
 #include "core/xml/check.h"
@@ -113,9 +114,7 @@ class Reader {
         return out;
     }
     static std::vector<model::Constant> constants(const Element& e) {
-        std::vector<model::Constant> out;
-        for (const Element& c : e.children("Constant")) out.push_back(located<model::Constant>(c));
-        return out;
+        return collected(e.children("Constant"), located<model::Constant>);
     }
     static std::vector<model::TypeDeclaration> declarations(const Element& e, std::string_view kind) {
         std::vector<model::TypeDeclaration> out;
@@ -166,7 +165,7 @@ class Reader {
     void only_holders(const Element& e, const std::vector<std::string>& meaningful) {
         for (const Element& h : e.children("XRefHolder")) {
             const Value name = h["name"];
-            if (std::ranges::find(meaningful, name.view) == meaningful.end())
+            if (!contains(meaningful, name.view))
                 out_.unknown(name.where(),
                              fmt::format("a <{}> has no cross references '{}'", e.name(), name.view),
                              suggest(name.view, meaningful));
@@ -215,9 +214,7 @@ class Reader {
     }
 
     std::vector<model::Point> points(const Element& e) {
-        std::vector<model::Point> out;
-        for (const Element& p : e.children("Point")) out.push_back(located<model::Point>(p));
-        return out;
+        return collected(e.children("Point"), located<model::Point>);
     }
 
     model::Population population(const Element& e) {

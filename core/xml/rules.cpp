@@ -2,24 +2,18 @@
 
 #include <algorithm>
 
+#include "core/base/sequence.h"
 #include "core/xml/document.h"
 
 namespace forage::xml {
-namespace {
-
-template <class Rules>
-auto* named(Rules& rules, std::string_view name) {
-    const auto it = std::ranges::find_if(rules, [&](const auto& r) { return r.name == name; });
-    return it == rules.end() ? nullptr : &*it;
-}
-
-}  // namespace
 
 const AttributeRule* ElementRule::attribute(std::string_view wanted) const {
-    return named(attributes, wanted);
+    return find_by(attributes, wanted, &AttributeRule::name);
 }
 
-const ElementRule* Format::find(std::string_view element) const { return named(elements, element); }
+const ElementRule* Format::find(std::string_view element) const {
+    return find_by(elements, element, &ElementRule::name);
+}
 
 Format&& Format::link() && {
     static const ElementRule nothing_inside;

@@ -8,6 +8,7 @@
 
 #include "core/base/installation.h"
 #include "core/base/print.h"
+#include "core/base/sequence.h"
 #include "core/model/lookup.h"
 #include "tools/api/experiment/results.h"
 #include "tools/forage/commands.h"
@@ -65,10 +66,8 @@ int tutorial(const TutorialOptions& o) {
         return experiment({.file = o.exercise, .directory = o.directory, .system = o.system});
     const auto wanted = std::ranges::find_if(all, [&](const auto& e) { return e.number == o.exercise; });
     if (wanted == all.end()) {
-        std::vector<std::string> numbers;
-        for (const auto& e : all) numbers.push_back(e.number);
         print(stderr, "error: there is no exercise '{}'\n  hint: {}\n", o.exercise,
-              suggest(o.exercise, numbers));
+              suggest(o.exercise, collected(all, &TutorialExercise::number)));
         return bad_input;
     }
     const std::string own = o.system.empty() ? "" : "-own";
@@ -80,8 +79,8 @@ int tutorial(const TutorialOptions& o) {
         experiment({.file = wanted->file.string(), .directory = directory, .system = o.system});
     if (status != fine || !o.system.empty()) return status;
     print("look at\n{}", wanted->look_at);
-    std::vector<std::string> pictures;
-    for (const auto& picture : pictures_below(directory)) pictures.push_back(directory + "/" + picture);
+    const auto pictures =
+        collected(pictures_below(directory), [&](const auto& p) { return directory + "/" + p; });
     if (pictures.size() > 10)
         print("  the {} pictures: forage view {}\n", pictures.size(), directory);
     else

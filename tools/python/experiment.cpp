@@ -12,6 +12,7 @@
 #include <pybind11/stl.h>
 
 #include "core/base/cores.h"
+#include "core/base/sequence.h"
 #include "tools/python/tables.h"
 #include "tools/python/values.h"
 
@@ -156,9 +157,7 @@ std::pair<std::size_t, std::size_t> missing_runs(const PythonExperiment& self, c
 }
 
 std::vector<std::string> values_of(const py::iterable& values) {
-    std::vector<std::string> out;
-    for (const auto& value : values) out.push_back(text_of(value));
-    return out;
+    return collected(values, [](const auto& value) { return text_of(value); });
 }
 
 /// The sweeps in a dictionary: each key is a parameter, or a tuple of parameters whose values are tuples,

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include "core/base/sequence.h"
 #include "tools/python/dlpack.h"
 #include "tools/python/values.h"
 
@@ -71,11 +72,7 @@ py::array activity_of(const PythonGroup& group) { return state(group, group.abou
 
 namespace {
 
-std::vector<std::string> state_names(const PythonGroup& group) {
-    std::vector<std::string> out;
-    for (const auto& s : group.about().type.states) out.push_back(s.name);
-    return out;
-}
+std::vector<std::string> state_names(const PythonGroup& group) { return names_of(group.about().type.states); }
 
 py::list directory(const py::object& self) {
     py::list out = py::module_::import("builtins").attr("object").attr("__dir__")(self);

@@ -9,6 +9,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "core/base/output_files.h"
+#include "core/base/sequence.h"
 #include "core/base/text_file.h"
 #include "core/run/weights.h"
 #include "tools/api/open/moves.h"
@@ -149,9 +150,7 @@ py::array read(PythonRun& self, const std::string& source) {
 }
 
 std::vector<std::string> group_paths(const PythonRun& self) {
-    std::vector<std::string> out;
-    for (const auto& g : self.use().layout().groups) out.push_back(g.path);
-    return out;
+    return collected(self.use().layout().groups, &engine::Layout::Group::path);
 }
 
 /// A group; a connection that has no name of a group; or a state of a group, "Process/Group:vm".

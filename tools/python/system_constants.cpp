@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/sequence.h"
 #include "tools/python/system.h"
 #include "tools/python/values.h"
 
@@ -30,7 +31,7 @@ void change(const SystemConstants& self, const std::function<void(std::vector<mo
 
 void require(const SystemConstants& self, const std::string& name) {
     const auto names = self.names();
-    if (std::ranges::find(names, name) == names.end())
+    if (!contains(names, name))
         throw InputError(fmt::format("there is no constant '{}'", name), suggest(name, names));
 }
 
@@ -42,9 +43,7 @@ void remove(const SystemConstants& self, const std::string& name) {
 }  // namespace
 
 std::vector<std::string> SystemConstants::names() const {
-    std::vector<std::string> out;
-    for (const auto& c : constants_of(system->model, id)) out.push_back(c.name);
-    return out;
+    return forage::names_of(constants_of(system->model, id));
 }
 
 py::object SystemConstants::get(const std::string& name) const {

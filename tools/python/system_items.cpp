@@ -34,11 +34,11 @@ std::string path_of(const SystemGroup& self) {
 std::string where(const SystemParameters& self) {
     std::string name;
     if (self.owner == Owner::group)
-        name = path_of({{self.system, self.id}});
+        name = path_of({self});
     else if (self.owner == Owner::process)
-        name = name_of(SystemProcess{{self.system, self.id}}.use());
+        name = name_of(SystemProcess{self}.use());
     else
-        name = model::trim(SystemConnection{{self.system, self.id}}.use().name);
+        name = model::trim(SystemConnection{self}.use().name);
     Diagnostics ignored;
     const auto item = model::find_item(self.system->model, name, "", ignored);
     if (!item || item->id != self.id || item->owner != self.owner) name = self.id;
@@ -54,16 +54,16 @@ model::Assignment find(const SystemParameters& self, const std::string& name) {
 
 /// The type of the item; null when it has none.
 const std::vector<Parameter>* declared(const SystemParameters& self) {
-    const auto parameters = [](const auto* type) { return type ? &type->parameters : nullptr; };
-    const Registry& types = *self.system->types;
-    if (self.owner == Owner::group)
-        return parameters(types.neuron(SystemGroup{{self.system, self.id}}.use().neuron.type));
+    const auto parameters = [&](const model::TypeUse& use) {
+        return model::parameters_of(*self.system->types, self.owner, use.type);
+    };
+    if (self.owner == Owner::group) return parameters(SystemGroup{self}.use().neuron);
     if (self.owner == Owner::process) {
-        const auto& module = SystemProcess{{self.system, self.id}}.use().module;
-        return module ? parameters(types.module(module->type)) : nullptr;
+        const auto& module = SystemProcess{self}.use().module;
+        return module ? parameters(*module) : nullptr;
     }
-    const auto& synapse = SystemConnection{{self.system, self.id}}.use().synapse;
-    return synapse ? parameters(types.synapse(synapse->type)) : nullptr;
+    const auto& synapse = SystemConnection{self}.use().synapse;
+    return synapse ? parameters(*synapse) : nullptr;
 }
 
 void unset(const SystemParameters& self, const std::string& name) {

@@ -9,6 +9,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "core/base/sequence.h"
 #include "tools/api/open/build_plugin.h"
 #include "tools/api/open/program_types.h"
 #include "tools/python/held.h"
@@ -319,13 +320,6 @@ void add_type(const py::object& given, Type type) {
     } catch (const std::invalid_argument& e) {
         throw InputError(e.what());
     }
-}
-
-template <class Info>
-std::vector<std::string> names_of(const std::vector<Info>& infos) {
-    std::vector<std::string> out;
-    for (const auto& i : infos) out.push_back(i.name);
-    return out;
 }
 
 void add_neuron(const py::object& given) {

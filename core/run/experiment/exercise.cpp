@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number.h"
+#include "core/base/sequence.h"
 #include "core/connectivity/connect.h"
 #include "core/model/lookup.h"
 #include "core/observe/source.h"
@@ -60,7 +61,7 @@ std::optional<double> synapses(const model::Requirement& r, std::string_view kin
     if (!to || (!from && !r.from.empty())) return std::nullopt;
     const auto holds = [](const observe::Source& s, int cell) {
         const auto& cells = s.part.numbers;
-        return std::ranges::find(cells, static_cast<std::size_t>(cell)) != cells.end();
+        return contains(cells, static_cast<std::size_t>(cell));
     };
     const model::GroupIndex groups(system);
     double count = 0;
@@ -174,14 +175,12 @@ void check_own(const model::Experiment& e, const model::System& start, const mod
     const auto check = [&](const char* kind, const std::vector<std::string>& wanted,
                            const std::vector<std::string>& there) {
         for (const auto& name : wanted)
-            if (named(name, wanted) && std::ranges::find(there, name) == there.end())
+            if (named(name, wanted) && !contains(there, name))
                 diagnostics.error({}, fmt::format("the system has no {} '{}'", kind, name),
                                   "the exercise uses it: keep the names of the system to start from");
     };
     const auto connections = [](const model::System& s) {
-        std::vector<std::string> out;
-        for (const auto& c : s.connections) out.emplace_back(model::trim(c.name));
-        return out;
+        return collected(s.connections, [](const auto& c) { return std::string(model::trim(c.name)); });
     };
     check("group", model::group_paths(start), model::group_paths(own));
     check("connection", connections(start), connections(own));

@@ -9,6 +9,7 @@
 
 #include "core/base/digest.h"
 #include "core/base/output_files.h"
+#include "core/base/sequence.h"
 #include "core/model/lookup.h"
 
 namespace forage {
@@ -76,9 +77,7 @@ std::size_t RunPlan::chosen(const model::Sweep& sweep, std::size_t combination) 
 }
 
 std::vector<std::string> RunPlan::values(std::size_t combination) const {
-    std::vector<std::string> out;
-    for (const auto& sweep : sweeps_) out.push_back(sweep.values[chosen(sweep, combination)].text);
-    return out;
+    return collected(sweeps_, [&](const auto& s) { return s.values[chosen(s, combination)].text; });
 }
 
 std::string RunPlan::combination_name(std::size_t combination) const {

@@ -10,6 +10,7 @@
 #include "core/base/estimate.h"
 #include "core/base/number.h"
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 
 namespace forage {
 namespace {
@@ -70,9 +71,7 @@ std::vector<std::size_t> ranking(const model::Experiment& e, const RunPlan& plan
         all.emplace_back(std::isfinite(good) ? good : std::numeric_limits<double>::infinity(), c);
     }
     std::ranges::sort(all);  // of equal ones, the first in the plan
-    std::vector<std::size_t> out;
-    for (const auto& [rank, c] : all) out.push_back(c);
-    return out;
+    return collected(all, [](const auto& ranked) { return ranked.second; });
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include "core/base/number.h"
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 
 namespace forage {
 namespace {
@@ -162,16 +163,14 @@ std::string results_csv(const model::Experiment& e, const RunPlan& plan, std::sp
 }
 
 std::string summary_csv(const model::Experiment& e, const RunPlan& plan, std::span<const RunResult> results) {
-    std::vector<std::string> header;
-    for (const auto& s : e.sweeps) header.push_back(field(s.parameter.text));
+    auto header = collected(e.sweeps, [](const auto& s) { return field(s.parameter.text); });
     header.emplace_back("runs");
     for (const auto& m : e.measures)
         for (const char* what : {"mean", "sd", "min", "max", "runs"})
             header.push_back(field(fmt::format("{} {}", m.name, what)));
     std::string out = row(header);
     for (const auto& c : combinations(plan, results)) {
-        std::vector<std::string> fields;
-        for (const auto& value : c.values) fields.push_back(field(value));
+        auto fields = collected(c.values, [](const auto& value) { return field(value); });
         fields.push_back(fmt::format("{}", c.finished()));
         for (std::size_t m = 0; m < e.measures.size(); ++m) {
             const Statistics s = c.of(m);

@@ -7,6 +7,7 @@
 
 #include "bug_interface/simulation/world_queries.h"
 #include "bug_interface/world/sdf_reader.h"
+#include "core/base/sequence.h"
 #include "core/run/argument_checks.h"
 #include "core/run/weights.h"
 #include "tools/plot/film.h"
@@ -96,9 +97,7 @@ std::shared_ptr<const AgentTask> AgentTask::read(AgentOptions options) {
     throw_errors(diagnostics);
     complete_agents(options, *out->sources_.world);
     if (!brain) {
-        std::vector<AgentBody> bodies;
-        for (const auto& agent : options.agents) bodies.push_back(agent.body);
-        out->sources_.system = agent_system(bodies, diagnostics);
+        out->sources_.system = agent_system(collected(options.agents, &Agent::body), diagnostics);
         throw_errors(diagnostics);
     }
     out->options_ = std::move(options);

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/sequence.h"
 #include "core/model/constants.h"
 #include "core/model/lookup.h"
 #include "tools/api/describe/shipped_equations.h"
@@ -32,8 +33,8 @@ std::string value_text(const std::string& text, ParameterKind kind) {
 /// The unit of a constant of the system or, with this name, of one of its processes.
 std::string unit_of_constant(const model::System& system, std::string_view name) {
     const auto unit_in = [&](const std::vector<model::Constant>& all) {
-        const auto found = std::ranges::find(all, name, &model::Constant::name);
-        return found == all.end() ? std::string() : found->unit;
+        const auto* found = find_by(all, name, &model::Constant::name);
+        return found ? found->unit : std::string();
     };
     std::string out = unit_in(system.constants);
     for (const auto& p : system.processes)
@@ -73,12 +74,6 @@ TypeDescription describe(const model::TypeUse& use, const Type* type, const mode
             if (std::ranges::none_of(use.initial, [&](const auto& i) { return i.state == s.name; }))
                 start(s.name, s.value.empty() ? "0" : s.value, false);
     return out;
-}
-
-const model::TypeDeclaration* find_declaration(const std::vector<model::TypeDeclaration>& all,
-                                               std::string_view name) {
-    const auto found = std::ranges::find(all, name, &model::TypeDeclaration::name);
-    return found == all.end() ? nullptr : &*found;
 }
 
 std::string describe(const model::Population& population, std::string_view of) {
@@ -231,15 +226,16 @@ ProcessDescription describe(const model::Process& process, const model::System& 
                     out.ports.push_back({r.name, group->second, references == &process.module->outputs});
     for (const auto& g : process.groups) {
         const GroupShape shape = model::shape(g.topology);
-        out.groups.push_back({.id = g.id,
-                              .name = std::string(model::trim(g.name)),
-                              .path = paths.at(g.id),
-                              .width = shape.width,
-                              .height = shape.height,
-                              .cells = shape.cells,
-                              .neuron = describe(g.neuron, registry.neuron(g.neuron.type), system,
-                                                 find_declaration(system.neuron_types, g.neuron.type)),
-                              .notes = g.note.value_or("")});
+        out.groups.push_back(
+            {.id = g.id,
+             .name = std::string(model::trim(g.name)),
+             .path = paths.at(g.id),
+             .width = shape.width,
+             .height = shape.height,
+             .cells = shape.cells,
+             .neuron = describe(g.neuron, registry.neuron(g.neuron.type), system,
+                                find_by(system.neuron_types, g.neuron.type, &model::TypeDeclaration::name)),
+             .notes = g.note.value_or("")});
     }
     return out;
 }
@@ -362,7 +358,7 @@ SystemDescription describe(const model::System& system, const Registry& registry
              .delay = describe(c.delay),
              .cells = cells_of(c.pattern),
              .synapse = describe(synapse, registry.synapse(synapse.type), system,
-                                 find_declaration(system.synapse_types, synapse.type)),
+                                 find_by(system.synapse_types, synapse.type, &model::TypeDeclaration::name)),
              .notes = c.note.value_or("")});
     }
     return out;

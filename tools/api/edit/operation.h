@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/diagnostic.h"
+#include "core/base/sequence.h"
 #include "core/run/input_error.h"
 #include "tools/api/edit/schema.h"
 
@@ -34,12 +35,8 @@ json carry_out(const std::vector<Operation<Edit>>& all, json operation, Edit edi
                          R"(such as {"do": "rename", "id": "a", "name": "B"})");
     const auto what = name->template get<std::string>();
     operation.erase(name);
-    const auto found = std::ranges::find(all, what, &Operation<Edit>::name);
-    if (found == all.end()) {
-        std::vector<std::string> names;
-        for (const auto& o : all) names.push_back(o.name);
-        throw InputError("there is no operation '" + what + "'", suggest(what, names));
-    }
+    const auto* found = find_by(all, what, &Operation<Edit>::name);
+    if (!found) throw InputError("there is no operation '" + what + "'", suggest(what, names_of(all)));
     edit.o = schema::checked(std::move(operation), found->members, "operation '" + what + "'");
     return (edit.*found->apply)();
 }

@@ -9,6 +9,7 @@
 
 #include "core/base/diagnostic.h"
 #include "core/base/printable.h"
+#include "core/base/sequence.h"
 #include "core/run/input_error.h"
 
 namespace forage::schema {
@@ -53,12 +54,6 @@ bool fits(const json& value, const ValueType& type) {
             return value.is_object();
     }
     return false;
-}
-
-std::vector<std::string> names_of(const std::vector<Member>& members) {
-    std::vector<std::string> out;
-    for (const auto& m : members) out.push_back(m.name);
-    return out;
 }
 
 std::string range_in_words(const ValueType& type) {
@@ -124,7 +119,7 @@ std::optional<Mismatch> mismatch(const json& object, const std::vector<Member>& 
                                  const std::string& where) {
     const auto path = [&](const std::string& name) { return where.empty() ? name : where + "." + name; };
     for (const auto& [name, member] : object.items())
-        if (std::ranges::find(members, name, &Member::name) == members.end())
+        if (!contains(members, name, &Member::name))
             return Mismatch{path(name), "is not a member",
                             members.empty() ? "it has no members" : suggest(name, names_of(members))};
     for (const auto& m : members) {
@@ -195,10 +190,10 @@ std::string in_typescript(const ValueType& type) {
             break;
     }
     if (type.members.empty()) return "object";
-    std::vector<std::string> members;
-    for (const auto& m : type.members)
-        members.push_back(m.required() ? fmt::format("{}: {}", m.name, in_typescript(m.type))
-                                       : fmt::format("{}?: {} | null", m.name, in_typescript(m.type)));
+    const auto members = collected(type.members, [](const Member& m) {
+        return fmt::format("{}{}", m.name, m.required() ? ": " : "?: ") + in_typescript(m.type) +
+               (m.required() ? "" : " | null");
+    });
     return fmt::format("{{ {} }}", fmt::join(members, "; "));
 }
 

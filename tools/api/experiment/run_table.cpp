@@ -9,6 +9,7 @@
 
 #include "core/base/number.h"
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 #include "core/base/table.h"
 
 namespace forage {
@@ -32,9 +33,7 @@ std::string short_name(const RunTable& table, std::size_t parameter) {
 }
 
 std::string joined(const std::vector<std::string>& values, const std::vector<std::size_t>& parameters) {
-    std::vector<std::string> out;
-    for (const std::size_t p : parameters) out.push_back(values[p]);
-    return separated(out, ", ");
+    return separated(collected(parameters, [&](std::size_t p) { return values[p]; }), ", ");
 }
 
 /// What some parameters have: the different values, in the order of the table.
