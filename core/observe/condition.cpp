@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/sequence.h"
 #include "core/model/names.h"
 
 namespace forage::observe {
@@ -14,22 +15,13 @@ namespace {
 
 /// The word for the time that is probably meant by a name that no group has: "seconds" for "sec".
 std::string_view meant_time(std::string_view name) {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 12> other_words = {
-        {{"sec", "seconds"},
-         {"secs", "seconds"},
-         {"second", "seconds"},
-         {"time", "seconds"},
-         {"t", "seconds"},
-         {"s", "seconds"},
-         {"cycles", "cycle"},
-         {"step", "cycle"},
-         {"steps", "cycle"},
-         {"trials", "trial"},
-         {"now", "seconds"},
-         {"duration", "seconds"}}};
+    static constexpr std::string_view for_seconds[] = {"sec", "secs", "second", "time",
+                                                       "t",   "s",    "now",    "duration"};
+    static constexpr std::string_view for_cycles[] = {"cycles", "step", "steps"};
     static const std::vector<std::string> words{"cycle", "trial", "seconds"};
-    for (const auto& [other, word] : other_words)
-        if (name == other) return word;
+    if (contains(for_seconds, name)) return "seconds";
+    if (contains(for_cycles, name)) return "cycle";
+    if (name == "trials") return "trial";
     return name.find('/') == name.npos ? nearest(name, words) : std::string_view();
 }
 
