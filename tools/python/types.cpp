@@ -154,7 +154,7 @@ class Object {
             py::dict values;
             for (std::size_t i = 0; i < declared_->parameters.size(); ++i)
                 values[py::str(declared_->parameters[i])] = value_of(values_.values[i]);
-            (*declared_->functions).attr("set_parameters")(*object_, values);
+            (*object_).attr("__dict__").attr("update")(values);
             seen_ = values_.version;
         }
         return *object_;

@@ -17,25 +17,11 @@ from ._recording import Recording
 __version__ = _forage.__version__
 
 # Imported when they are used, as they need NumPy, so that the import of the package takes little time.
-_EXPERIMENT = ("Table", "experiment", "sweep")
-_OPTIMISE = ("Optimum", "optimise")
-_TYPES = (
-    "Cells",
-    "Plugin",
-    "Ports",
-    "Synapses",
-    "TypeInfo",
-    "build_plugin",
-    "feedback",
-    "input",
-    "module",
-    "neuron",
-    "output",
-    "parameter",
-    "state",
-    "synapse",
-    "types",
-)
+_LATER = {
+    "_experiment": "Table experiment sweep",
+    "_optimise": "Optimum optimise",
+    "_types": "Cells Plugin Ports Synapses TypeInfo build_plugin feedback input module neuron output parameter state synapse types",
+}
 
 __all__ = [
     "Arborization",
@@ -94,19 +80,15 @@ if TYPE_CHECKING:
 
 def __getattr__(name):
     """Imports what needs NumPy, or takes time, when it is used."""
-    if name == "SYSTEMS":
-        import pathlib
+    import importlib
+    import pathlib
 
+    if name == "SYSTEMS":
         return pathlib.Path(_forage._systems)
-    if name in _EXPERIMENT:
-        from . import _experiment as place
-    elif name in _OPTIMISE:
-        from . import _optimise as place
-    elif name in _TYPES:
-        from . import _types as place
-    else:
-        raise AttributeError(f"module 'forage' has no attribute '{name}'")
-    return getattr(place, name)
+    for place, names in _LATER.items():
+        if name in names.split():
+            return getattr(importlib.import_module("." + place, __name__), name)
+    raise AttributeError(f"module 'forage' has no attribute '{name}'")
 
 
 def __dir__():

@@ -228,18 +228,8 @@ def sweep(
         if executor is not None:
             file, world, folder = os.path.abspath(file), world and os.path.abspath(world), os.path.abspath(folder)
             setup["plugins"] = [os.path.abspath(p) for p in setup["plugins"]]
-        description = dict(
-            system=os.fspath(file),
-            world="" if world is None else os.fspath(world),
-            values=listed,
-            seeds=_seeds(seeds),
-            settings=_settings(settings),
-            measures=declared,
-            until=until,
-            adaptations=adaptations,
-            **length,
-            **setup,
-        )
+        description: dict[str, typing.Any] = {"system": os.fspath(file), "world": "" if world is None else os.fspath(world), **setup}
+        description.update(values=listed, seeds=_seeds(seeds), settings=_settings(settings), measures=declared, until=until, adaptations=adaptations, **length)
         planned = _forage._Experiment(**description)
         if executor is not None:
             planned.missing(folder)  # tells all mistakes before anything is sent

@@ -85,16 +85,8 @@ def optimise(
         generation += 1
         tried = limits[:, 0] + points * (limits[:, 1] - limits[:, 0])
         folder = None if directory is None else pathlib.Path(os.fspath(directory)) / f"generation-{generation}"
-        table = sweep(
-            system,
-            world,
-            {tuple(names): [tuple(map(float, point)) for point in tried]},
-            measure=measure,
-            seeds=all_seeds,
-            directory=folder,
-            progress=tell,
-            **options,
-        )
+        values = {tuple(names): [tuple(map(float, point)) for point in tried]}
+        table = sweep(system, world, values, measure=measure, seeds=all_seeds, directory=folder, progress=tell, **options)
         costs = [_cost(cost, table[i * len(all_seeds) : (i + 1) * len(all_seeds)]) for i in range(len(tried))]
         history.extend((generation, *point, c) for point, c in zip(tried, costs))
         return numpy.array(costs)

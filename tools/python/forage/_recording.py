@@ -99,12 +99,6 @@ class Recording:
         import neo
         import quantities
 
-        start = self.cycles[0] * self.seconds_per_cycle if len(self) else 0
-        return neo.AnalogSignal(
-            self._table(),
-            units="dimensionless",
-            name=self.source,
-            description=self.label,
-            t_start=start * quantities.s,
-            sampling_period=self.every * self.seconds_per_cycle * quantities.s,
-        )
+        cycle = self.seconds_per_cycle * quantities.s
+        times = {"t_start": (self.cycles[0] if len(self) else 0) * cycle, "sampling_period": self.every * cycle}
+        return neo.AnalogSignal(self._table(), units="dimensionless", name=self.source, description=self.label, **times)

@@ -315,9 +315,6 @@ class _Declared:
             made.__dict__["_forage_started"] = True
         return made
 
-    def set_parameters(self, made: typing.Any, values: dict[str, typing.Any]) -> None:
-        made.__dict__.update(values)
-
     def update_cells(self, made: typing.Any, columns: dict[str, _Column], draws: typing.Any, size: int, cycle: int) -> None:
         made.update(Cells(columns, size, draws, cycle))
 

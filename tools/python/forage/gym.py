@@ -74,19 +74,8 @@ def _agent(robot: str, system: typing.Any, sensors: typing.Any, motors: typing.A
 
 
 def _task(world: typing.Any, system: typing.Any, agents: typing.Any, options: typing.Any, every_robot: bool = False) -> dict[str, typing.Any]:
-    usual: dict[str, typing.Any] = {
-        "action": "cell",
-        "cycles_per_step": 5,
-        "max_steps": 1000,
-        "end_at_target": True,
-        "speed": (1.0, 1.5),
-        "seed": 1,
-        "settings": None,
-        "plugins": (),
-        "noise": True,
-        "real_time_factor": None,
-        "paths": False,
-    }
+    usual: dict[str, typing.Any] = {"action": "cell", "cycles_per_step": 5, "max_steps": 1000, "end_at_target": True, "speed": (1.0, 1.5), "seed": 1}
+    usual.update(settings=None, plugins=(), noise=True, real_time_factor=None, paths=False)
     unknown = set(options) - set(usual)
     if unknown:
         raise TypeError(f"unknown options: {', '.join(sorted(unknown))}; there are {', '.join(usual)}")
