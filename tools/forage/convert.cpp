@@ -10,6 +10,7 @@
 #include "core/base/output_files.h"
 #include "core/base/print.h"
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 #include "core/model/arrays.h"
 #include "core/model/build.h"
 #include "core/model/edit.h"
@@ -33,12 +34,11 @@ void warn_of_loss(const model::System& system, const model::ProcessFile& file, D
     const auto lost = std::ranges::count_if(system.connections, [&](const auto& c) {
         return groups.contains(c.source) != groups.contains(c.target);
     });
-    std::vector<std::string> ports;
-    for (const auto& port : file.process.ports) ports.push_back(port.name);
     if (lost)
         diagnostics.warning(
             {}, fmt::format("--extract: connections from or to other processes are not written: {}", lost),
-            fmt::format("a system that uses the file connects its ports: {}", separated(ports, ", ")));
+            fmt::format("a system that uses the file connects its ports: {}",
+                        separated(names_of(file.process.ports), ", ")));
 }
 
 /// Chooses the short or the long form of what both can say.
@@ -51,8 +51,8 @@ void rewrite(const ConvertOptions& o, std::span<model::Process> processes,
 /// Says that an imported process is not connected yet, and names the ids that a connection needs.
 std::string about_import(model::System& system, const std::string& id) {
     const model::Process& process = *model::find_process(system, id);
-    std::vector<std::string> groups;
-    for (const auto& g : process.groups) groups.push_back(fmt::format("{} ({})", g.id, model::trim(g.name)));
+    const auto groups = collected(
+        process.groups, [](const auto& g) { return fmt::format("{} ({})", g.id, model::trim(g.name)); });
     return fmt::format(
         "imported '{}'; nothing connects it with the other processes yet\n"
         "  write each <Connection> that it needs; the ids of its groups are {}\n",
@@ -82,8 +82,8 @@ void warn_of_paths(const ConvertOptions& o, const model::System& system, const R
 std::string process_id(const model::System& system, const std::string& wanted, Diagnostics& diagnostics) {
     const auto found = model::items_named(system.processes, wanted);
     if (!found.empty()) return system.processes[found.front()].id;
-    std::vector<std::string> names;
-    for (const auto& p : system.processes) names.emplace_back(model::trim(p.name));
+    const auto names =
+        collected(system.processes, [](const auto& p) { return std::string(model::trim(p.name)); });
     diagnostics.error({}, fmt::format("--extract: there is no process '{}'", wanted), suggest(wanted, names));
     return {};
 }

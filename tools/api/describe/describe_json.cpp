@@ -1,6 +1,5 @@
 #include "tools/api/describe/describe_json.h"
 
-#include <cmath>
 #include <set>
 #include <utility>
 
@@ -9,6 +8,7 @@
 
 #include "bug_interface/world/material.h"
 #include "core/base/number.h"
+#include "core/base/sequence.h"
 #include "core/model/constants.h"
 #include "core/model/edit.h"
 #include "core/model/lookup.h"
@@ -21,11 +21,6 @@ namespace {
 
 using nlohmann::json;
 
-json icon_of(const std::optional<model::Icon>& icon) {
-    if (!icon) return nullptr;
-    return {{"x", icon->x}, {"y", icon->y}, {"width", icon->width}, {"height", icon->height}};
-}
-
 /// Columns and rows, from 0, of the cells in the order of their numbers, which go row by row.
 json places_of(const model::Topology& topology) {
     const auto* sparse = std::get_if<model::SparseTopology>(&topology);
@@ -33,9 +28,7 @@ json places_of(const model::Topology& topology) {
     std::set<std::pair<int, int>> rows;  // a place is one cell, even when it is listed several times
     for (const auto& p : sparse->points)
         if (p.x >= 1 && p.y >= 1) rows.emplace(p.y, p.x);
-    json out = json::array();
-    for (const auto& [y, x] : rows) out.push_back({x - 1, y - 1});
-    return out;
+    return collected(rows, [](const auto& at) { return json{at.second - 1, at.first - 1}; });
 }
 
 json states_of(const NeuronType* type) {
@@ -64,18 +57,16 @@ json names_of(const Run* run, const std::string& group) {
 
 json module_of(const model::Process& p) {
     if (!p.module) return nullptr;
-    json out = {{"type", p.module->type}, {"inputs", json::array()}, {"outputs", json::array()}};
-    for (const auto& r : p.module->inputs) out["inputs"].push_back({{"name", r.name}, {"group", r.target}});
-    for (const auto& r : p.module->outputs) out["outputs"].push_back({{"name", r.name}, {"group", r.target}});
-    return out;
+    const auto group = [](const auto& r) { return json{{"name", r.name}, {"group", r.target}}; };
+    return {{"type", p.module->type},
+            {"inputs", collected(p.module->inputs, group)},
+            {"outputs", collected(p.module->outputs, group)}};
 }
 
 json line_of(const std::optional<model::Line>& line) {
     if (!line) return nullptr;
     const auto places = [](const std::vector<model::Point>& all) {
-        json out = json::array();
-        for (const auto& v : all) out.push_back({v.x, v.y});
-        return out;
+        return collected(all, [](const auto& v) { return json{v.x, v.y}; });
     };
     return {{"source_anchor", line->source_anchor},
             {"target_anchor", line->target_anchor},
@@ -85,22 +76,14 @@ json line_of(const std::optional<model::Line>& line) {
 }
 
 json comments_of(const std::vector<model::CanvasComment>& comments) {
-    json out = json::array();
-    for (const auto& c : comments)
-        out.push_back({{"id", c.id}, {"text", c.text}, {"color", c.color}, {"icon", icon_of(c.box)}});
-    return out;
+    return collected(comments, [](const auto& c) {
+        return json{{"id", c.id}, {"text", c.text}, {"color", c.color}, {"icon", icon_of(c.box)}};
+    });
 }
 
 json ports_of(const model::Process& process) {
-    json out = json::array();
-    if (!process.linked()) return out;
-    for (const auto& port : process.ports) out.push_back({{"name", port.name}, {"group", port.group}});
-    return out;
-}
-json phantoms_of(const std::vector<model::Phantom>& phantoms) {
-    json out = json::array();
-    for (const auto& p : phantoms) out.push_back({{"group", p.group}, {"x", p.x}, {"y", p.y}});
-    return out;
+    if (!process.linked()) return json::array();
+    return collected(process.ports, [](const auto& p) { return json{{"name", p.name}, {"group", p.group}}; });
 }
 
 json solid_of(const bug::Solid& s, const bug::Colour& colour) {
@@ -114,8 +97,6 @@ json solid_of(const bug::Solid& s, const bug::Colour& colour) {
             {"size", {s.size.x(), s.size.y(), s.size.z()}},
             {"color", bug::hex_of(colour)}};
 }
-
-json pose_of(const Pose2& p) { return {{"x", p.x}, {"y", p.y}, {"yaw", p.yaw}}; }
 
 json json_of(const ParameterValue& value) {
     return std::visit([](const auto& v) { return json(v); }, value);
@@ -154,6 +135,11 @@ json parameter_of(Run& run, const model::Assignment& item, const Parameter& p, c
 
 }  // namespace
 
+json icon_of(const std::optional<model::Icon>& icon) {
+    if (!icon) return nullptr;
+    return {{"x", icon->x}, {"y", icon->y}, {"width", icon->width}, {"height", icon->height}};
+}
+
 json describe_system(const Run& run) { return describe_system(run.system(), run.registry(), &run); }
 
 // What papers and terminals read of a system (system_description.h) is in each object; the rest is for
@@ -182,20 +168,24 @@ json describe_system(const model::System& system, const Registry& registry, cons
                               {"names", names_of(run, group.id)},
                               {"states", states_of(registry.neuron(g.neuron.type))}});
         }
-        processes.push_back({{"id", process.id},
-                             {"name", process.name},
-                             {"color", p.color},
-                             {"note", process.notes},
-                             {"icon", icon_of(p.icon)},
-                             {"linked", p.linked()},
-                             {"file", p.path},
-                             {"within", p.within},
-                             {"ports", ports_of(p)},
-                             {"enabled", process.module_enabled},
-                             {"module", module_of(p)},
-                             {"comments", comments_of(p.canvas_comments)},
-                             {"phantoms", phantoms_of(p.phantoms)},
-                             {"groups", std::move(inside)}});
+        processes.push_back(
+            {{"id", process.id},
+             {"name", process.name},
+             {"color", p.color},
+             {"note", process.notes},
+             {"icon", icon_of(p.icon)},
+             {"linked", p.linked()},
+             {"file", p.path},
+             {"within", p.within},
+             {"ports", ports_of(p)},
+             {"enabled", process.module_enabled},
+             {"module", module_of(p)},
+             {"comments", comments_of(p.canvas_comments)},
+             {"phantoms", collected(p.phantoms,
+                                    [](const auto& f) {
+                                        return json{{"group", f.group}, {"x", f.x}, {"y", f.y}};
+                                    })},
+             {"groups", std::move(inside)}});
     }
     for (std::size_t i = 0; i < system.connections.size(); ++i) {
         const auto& c = system.connections[i];
@@ -231,8 +221,7 @@ json describe_system(const model::System& system, const Registry& registry, cons
 }
 
 json describe_world(const bug::World& world) {
-    json robots = json::array(), objects = json::array(), solids = json::array(), targets = json::array(),
-         starts = json::array();
+    json robots = json::array(), objects = json::array();
     for (std::size_t i = 0; i < world.bugs(); ++i) {
         const auto& robot = world.robot(i);
         json camera = nullptr, scans = json::array();
@@ -250,15 +239,12 @@ json describe_world(const bug::World& world) {
     }
     for (std::size_t i = 0; i < world.movable_objects(); ++i) {
         const auto& object = world.movable_object(i);
-        json parts = json::array();
-        for (const auto& v : object.visuals)
-            parts.push_back(solid_of(v.visual.solid, v.visual.material.diffuse));
-        objects.push_back(
-            {{"name", object.name}, {"resource", object.resource}, {"solids", std::move(parts)}});
+        objects.push_back({{"name", object.name},
+                           {"resource", object.resource},
+                           {"solids", collected(object.visuals, [](const auto& v) {
+                                return solid_of(v.visual.solid, v.visual.material.diffuse);
+                            })}});
     }
-    for (const auto& d : bug::drawing_of(world.description())) solids.push_back(solid_of(d.solid, d.colour));
-    for (const auto& t : world.targets()) targets.push_back({t.x(), t.y()});
-    for (const auto& s : world.start_poses()) starts.push_back(pose_of(s));
     const auto view = plot::WorldMap(world, {}, 1000, 0, 0).view();
     json bounds = nullptr;
     if (const auto plan = world.reset_plan())
@@ -269,9 +255,16 @@ json describe_world(const bug::World& world) {
             {"view", {view.min().x(), view.min().y(), view.max().x(), view.max().y()}},
             {"robots", std::move(robots)},
             {"objects", std::move(objects)},
-            {"solids", std::move(solids)},
-            {"targets", std::move(targets)},
-            {"starts", std::move(starts)},
+            {"solids", collected(bug::drawing_of(world.description()),
+                                 [](const auto& d) { return solid_of(d.solid, d.colour); })},
+            {"targets", collected(world.targets(),
+                                  [](const auto& t) {
+                                      return json{t.x(), t.y()};
+                                  })},
+            {"starts", collected(world.start_poses(),
+                                 [](const auto& p) {
+                                     return json{{"x", p.x}, {"y", p.y}, {"yaw", p.yaw}};
+                                 })},
             {"bounds", std::move(bounds)},
             {"trials", world.has_trials(0)}};
 }

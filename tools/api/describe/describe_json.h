@@ -12,6 +12,8 @@
 
 namespace forage {
 
+/// The place of an item in the diagram; null without one.
+nlohmann::json icon_of(const std::optional<model::Icon>& icon);
 /// The processes, groups and connections of a run that has started, with their places in the diagram.
 nlohmann::json describe_system(const Run& run);
 /// The same of a system that is edited, for which `run` may not stand: what is not in the run has no

@@ -1,10 +1,9 @@
 // The types of a registry as JSON.
-#include <cmath>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "core/base/capitalized.h"
+#include "core/base/sequence.h"
 #include "core/equations/declared_types.h"
 #include "core/xml/rules.h"
 #include "tools/api/describe/describe_json.h"
@@ -24,8 +23,6 @@ json named(const Type& type) {
             {"parameters", parameters_of(type.parameters)}};
 }
 
-json finite_or_null(double number) { return std::isfinite(number) ? json(number) : json(nullptr); }
-
 /// The elements that may stand in an element of system files, with their attributes as parameters.
 json forms_in(const char* element) {
     json out = json::array();
@@ -44,8 +41,8 @@ json forms_in(const char* element) {
                                  : number                        ? "real"
                                                                  : "text"},
                         {"default", value},
-                        {"low", finite_or_null(v.low)},
-                        {"high", finite_or_null(v.high)}};
+                        {"low", v.low},  // infinite limits are null in texts
+                        {"high", v.high}};
             if (!v.choices.empty()) row["options"] = v.choices;
             if (!v.choice_labels.empty()) row["labels"] = v.choice_labels;
             parameters.push_back(std::move(row));
@@ -61,10 +58,10 @@ json forms_in(const char* element) {
 }  // namespace
 
 json describe_declaration(const model::TypeDeclaration& type) {
-    json equations = json::array();
-    for (const auto& e : equations::lines(type))
-        equations.push_back({{"text", e.text}, {"line", e.line}, {"computes", e.computes}});
-    return {{"doc", type.doc}, {"equations", std::move(equations)}};
+    const auto line = [](const auto& e) {
+        return json{{"text", e.text}, {"line", e.line}, {"computes", e.computes}};
+    };
+    return {{"doc", type.doc}, {"equations", collected(equations::lines(type), line)}};
 }
 
 json describe_types(const Registry& registry) {
@@ -81,10 +78,12 @@ json describe_types(const Registry& registry) {
     }
     for (const auto& [name, type] : registry.synapses()) {
         json row = named(type);
-        row["states"] = json::array(), row["feedback"] = json::array();
-        for (const auto& s : type.states) row["states"].push_back({{"name", s.name}, {"label", s.label}});
-        for (const auto& f : type.feedback)
-            row["feedback"].push_back({{"name", f.name}, {"label", f.label}, {"required", f.required}});
+        row["states"] = collected(type.states, [](const auto& s) {
+            return json{{"name", s.name}, {"label", s.label}};
+        });
+        row["feedback"] = collected(type.feedback, [](const auto& f) {
+            return json{{"name", f.name}, {"label", f.label}, {"required", f.required}};
+        });
         synapses.push_back(std::move(row));
     }
     for (const auto& [name, type] : registry.modules()) {

@@ -1,8 +1,7 @@
 // What may stand in a system file, as JSON.
-#include <cmath>
-
 #include <nlohmann/json.hpp>
 
+#include "core/base/sequence.h"
 #include "core/xml/rules.h"
 #include "tools/api/describe/describe_json.h"
 
@@ -16,8 +15,6 @@ constexpr const char* value_kinds[] = {"text", "choice", "boolean", "number", "w
 constexpr const char* named_things[] = {"",      "neuron", "synapse", "module", "parameter",
                                         "value", "port",   "group",   "target"};
 
-json finite(double number) { return std::isfinite(number) ? json(number) : json(nullptr); }
-
 json of(const xml::AttributeRule& a) {
     const auto& v = a.value;
     json out = {{"name", a.name},         {"doc", v.doc},
@@ -26,7 +23,7 @@ json of(const xml::AttributeRule& a) {
                 {"names", nullptr}};
     if (v.names != xml::Names::nothing) out["names"] = named_things[static_cast<int>(v.names)];
     if (v.kind == xml::ValueKind::number || v.kind == xml::ValueKind::whole)
-        out["low"] = finite(v.low), out["high"] = finite(v.high);
+        out["low"] = v.low, out["high"] = v.high;  // infinite ones are null in texts
     if (v.kind == xml::ValueKind::boolean) out["choices"] = {"true", "false"};
     if (!v.choices.empty()) out["choices"] = v.choices;
     return out;
@@ -36,20 +33,18 @@ json of(const xml::AttributeRule& a) {
 
 json describe_vocabulary() {
     const auto& format = xml::system_format();
-    json elements = json::array();
-    for (const auto& rule : format.elements) {
-        json children = json::array(), attributes = json::array();
-        for (const auto& c : rule.children)
-            children.push_back({{"name", c.name}, {"several", c.most > 1}, {"required", c.least > 0}});
-        for (const auto& a : rule.attributes) attributes.push_back(of(a));
-        elements.push_back({{"name", rule.name},
-                            {"doc", rule.doc},
-                            {"children", std::move(children)},
-                            {"choose", rule.choose},
-                            {"text", rule.value != nullptr},
-                            {"attributes", std::move(attributes)}});
-    }
-    return {{"root", format.roots.front()}, {"elements", std::move(elements)}};
+    const auto child = [](const auto& c) {
+        return json{{"name", c.name}, {"several", c.most > 1}, {"required", c.least > 0}};
+    };
+    const auto element = [&](const auto& rule) {
+        return json{{"name", rule.name},
+                    {"doc", rule.doc},
+                    {"choose", rule.choose},
+                    {"children", collected(rule.children, child)},
+                    {"text", rule.value != nullptr},
+                    {"attributes", collected(rule.attributes, of)}};
+    };
+    return {{"root", format.roots.front()}, {"elements", collected(format.elements, element)}};
 }
 
 }  // namespace forage

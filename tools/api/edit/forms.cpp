@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/sequence.h"
 #include "core/run/input_error.h"
 #include "core/xml/system_elements.h"
 
@@ -100,15 +101,13 @@ void read_form(const json& form, auto& variant, const char* what) {
 }  // namespace
 
 json points_of(const std::vector<Point>& points) {
-    json out = json::array();
-    for (const Point& p : points) out.push_back({p.x, p.y});
-    return out;
+    return collected(points, [](const Point& p) { return json{p.x, p.y}; });
 }
 
 std::vector<Point> points_from(const json& points) {
-    std::vector<Point> out;
-    for (const auto& p : points) out.push_back({whole_from(p.at(0)), whole_from(p.at(1)), {}});
-    return out;
+    return collected(points, [](const json& p) {
+        return Point{whole_from(p.at(0)), whole_from(p.at(1)), {}};
+    });
 }
 
 int whole_from(const json& number, double most) {
@@ -133,10 +132,10 @@ json json_of(const Pattern& pattern) {
                 {"file", weights->file},
                 {"list", weights->is_list},
                 {"text", weights->text}};
-    json tuples = json::array();
-    for (const auto& t : std::get<TuplesPattern>(pattern).tuples)
-        tuples.push_back({{"source", points_of(t.sources)}, {"target", points_of(t.targets)}});
-    return {{"form", "tuples"}, {"tuples", std::move(tuples)}};
+    const auto tuple = [](const auto& t) {
+        return json{{"source", points_of(t.sources)}, {"target", points_of(t.targets)}};
+    };
+    return {{"form", "tuples"}, {"tuples", collected(std::get<TuplesPattern>(pattern).tuples, tuple)}};
 }
 
 Pattern pattern_from(const json& pattern) {

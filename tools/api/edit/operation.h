@@ -9,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/diagnostic.h"
-#include "core/base/sequence.h"
 #include "core/run/input_error.h"
 #include "tools/api/edit/schema.h"
 

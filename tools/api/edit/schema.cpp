@@ -9,7 +9,6 @@
 
 #include "core/base/diagnostic.h"
 #include "core/base/printable.h"
-#include "core/base/sequence.h"
 #include "core/run/input_error.h"
 
 namespace forage::schema {

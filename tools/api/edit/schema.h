@@ -9,6 +9,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/sequence.h"
+
 namespace forage::schema {
 
 using nlohmann::json;

@@ -106,17 +106,9 @@ class Parts final : public StreamSource {
             const auto pose = v.at(world.body_poses());
             const Eigen::Vector3d p = pose.translation(), size = v.visual.solid.size;
             const auto& colour = v.visual.material.diffuse;
-            const double row[] = {static_cast<double>(v.visual.solid.kind),
-                                  p.x(),
-                                  p.y(),
-                                  p.z(),
-                                  bug::yaw_of(pose),
-                                  size.x(),
-                                  size.y(),
-                                  size.z(),
-                                  colour[0],
-                                  colour[1],
-                                  colour[2]};
+            const auto kind = static_cast<double>(v.visual.solid.kind), yaw = bug::yaw_of(pose);
+            const double row[] = {kind,     p.x(),    p.y(),     p.z(),     yaw,      size.x(),
+                                  size.y(), size.z(), colour[0], colour[1], colour[2]};
             std::copy(std::begin(row), std::end(row), out.begin() + static_cast<std::ptrdiff_t>(at));
             at += columns();
         }

@@ -40,11 +40,8 @@ const std::vector<Command>& commands() {
 }
 
 const Command& find_command(const std::string& name) {
-    const auto it = std::ranges::find(commands(), name, &Command::name);
-    if (it != commands().end()) return *it;
-    std::vector<std::string> names;
-    for (const auto& command : commands()) names.push_back(command.name);
-    throw InputError(fmt::format("there is no command '{}'", name), suggest(name, names));
+    if (const auto* found = find_by(commands(), name, &Command::name)) return *found;
+    throw InputError(fmt::format("there is no command '{}'", name), suggest(name, names_of(commands())));
 }
 
 json execute_command(Session& session, int client, json message) {

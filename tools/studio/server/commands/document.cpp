@@ -189,10 +189,10 @@ json list_files(Session& s, const Request& r) {
 }
 
 json list_recent(Session&, const Request&) {
-    json out = json::array();
-    for (const auto& used : recent_files())
-        out.push_back({{"file", used.file}, {"world", used.world}, {"seed", used.seed}});
-    return {{"files", std::move(out)}};
+    const auto use = [](const auto& u) {
+        return json{{"file", u.file}, {"world", u.world}, {"seed", u.seed}};
+    };
+    return {{"files", collected(recent_files(), use)}};
 }
 
 }  // namespace

@@ -23,25 +23,12 @@ using editing::json_of;
 using editing::title_of;
 
 constexpr std::size_t max_pairs = 200'000;  ///< in a reply
-constexpr const char* signs[] = {"excitatory", "inhibitory", "modulatory"};
 
 std::string trimmed(const std::string& text) { return std::string(model::trim(text)); }
 
-template <class Items>
-auto* with_id(const Items& items, std::string_view id) {
-    const auto it =
-        std::ranges::find(items, id, [](const auto& item) -> std::string_view { return item.id; });
-    return it == items.end() ? nullptr : &*it;
-}
-
-json icon_of(const std::optional<model::Icon>& icon) {
-    if (!icon) return nullptr;
-    return {{"x", icon->x}, {"y", icon->y}, {"width", icon->width}, {"height", icon->height}};
-}
-
 std::string target_of(const std::vector<model::CrossReference>& all, const std::string& name) {
-    const auto it = std::ranges::find(all, name, &model::CrossReference::name);
-    return it == all.end() ? "" : it->target;
+    const auto* found = find_by(all, name, &model::CrossReference::name);
+    return found ? found->target : "";
 }
 
 /// The properties of items.
@@ -52,8 +39,8 @@ struct Description {
 
     /// The declaration of a type of this file; null for other types.
     static json declaration(const std::vector<model::TypeDeclaration>& all, const std::string& type) {
-        const auto it = std::ranges::find(all, type, &model::TypeDeclaration::name);
-        return it == all.end() ? json() : describe_declaration(*it);
+        const auto* found = find_by(all, type, &model::TypeDeclaration::name);
+        return found ? describe_declaration(*found) : json();
     }
     template <class Type>
     json settings(const model::TypeUse& use, const Type* type, const std::string& id,
@@ -111,7 +98,7 @@ struct Description {
                     {"note", c.note.value_or("")},
                     {"source", c.source},
                     {"target", c.target},
-                    {"sign", signs[static_cast<int>(c.kind)]},
+                    {"sign", name_of(c.kind)},
                     {"synapse", c.synapse ? c.synapse->type : ""},
                     {"pattern", json_of(c.pattern)},
                     {"arborization", json_of(c.arborization)},
@@ -151,11 +138,12 @@ struct Description {
     /// The properties of the item with this id; null when there is none.
     json of(const std::string& id) {
         if (id == "system" || id == system.id) return of_system();
-        if (const auto* p = with_id(system.processes, id)) return of(*p);
-        if (const auto* connection = with_id(system.connections, id)) return of(*connection);
-        if (const auto* comment = with_id(system.canvas_comments, id)) return of(*comment, false);
+        if (const auto* p = find_by(system.processes, id, &model::Process::id)) return of(*p);
+        if (const auto* c = find_by(system.connections, id, &model::Connection::id)) return of(*c);
+        constexpr auto its_id = &model::CanvasComment::id;
+        if (const auto* comment = find_by(system.canvas_comments, id, its_id)) return of(*comment, false);
         for (const auto& p : system.processes)
-            if (const auto* comment = with_id(p.canvas_comments, id)) return of(*comment, p.linked());
+            if (const auto* comment = find_by(p.canvas_comments, id, its_id)) return of(*comment, p.linked());
         const auto found = model::GroupIndex(system).find(id);
         return found.group ? of(*found.group, *found.process) : json();
     }
@@ -302,17 +290,17 @@ json edit_document(Session& s, const json& operations, std::string title, const 
         if (operations.size() > 1) title += fmt::format(" and {} more", operations.size() - 1);
     }
     check_files(s, operations);
-    json ids = json::array(), warnings = json::array();
+    json ids = json::array();
     const std::string before = document.text();
     editing::EditFiles files(document.path());
     document.edit([&](model::System& system) {
         for (const auto& o : operations) ids.push_back(carry_out(o, system, s.run().registry(), files));
     });
     files.keep();
-    for (const auto& warning : files.warnings.all()) warnings.push_back(warning.message);
     json out = follow_edit(s, {.title = std::move(title), .merge = merge, .system = before},
                            script_edit(s, operations, ids));
-    out["ids"] = std::move(ids), out["warnings"] = std::move(warnings);
+    out["ids"] = std::move(ids);
+    out["warnings"] = collected(files.warnings.all(), &Diagnostic::message);
     return out;
 }
 

@@ -42,18 +42,14 @@ xml::PanelRow row_of(const json& p) {
 }
 
 std::vector<xml::PanelRow> rows_in(Session& s, const Request& r) {
-    std::vector<xml::PanelRow> rows;
-    for (const auto& row : r["rows"])
-        rows.push_back(
-            row_of(one_parameter(s, row["item"].get<std::string>(), row["parameter"].get<std::string>())));
-    return rows;
+    return collected(r["rows"], [&](const json& row) {
+        return row_of(one_parameter(s, row["item"].get<std::string>(), row["parameter"].get<std::string>()));
+    });
 }
 
 json read_panel_file(Session& s, const Request& r) {
-    json rows = json::array();
-    for (const auto& row : read_panel(r.text("file"), FileKind::panel))
-        rows.push_back(one_parameter(s, row.id, row.parameter));
-    return {{"rows", std::move(rows)}};
+    const auto parameter = [&](const auto& row) { return one_parameter(s, row.id, row.parameter); };
+    return {{"rows", collected(read_panel(r.text("file"), FileKind::panel), parameter)}};
 }
 
 json write_panel_file(Session& s, const Request& r) {

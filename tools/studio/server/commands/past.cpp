@@ -16,11 +16,11 @@ std::uint64_t past_cycle(Session& s, const Request& r) {
 
 json describe_history(Session& s, const Request&) {
     const auto& past = s.live.history;
-    json actions = json::array();
-    for (const auto& a : past.actions()) actions.push_back({{"cycle", a.cycle}, {"title", a.title}});
-    return {{"first", past.first()},        {"last", past.last()},   {"now", s.run().cycle()},
-            {"checkpoints", past.cycles()}, {"bytes", past.bytes()}, {"limit", past.limit()},
-            {"interval", past.interval()},  {"actions", actions}};
+    const auto action = [](const auto& a) { return json{{"cycle", a.cycle}, {"title", a.title}}; };
+    return {{"first", past.first()},       {"last", past.last()},
+            {"now", s.run().cycle()},      {"checkpoints", past.cycles()},
+            {"bytes", past.bytes()},       {"limit", past.limit()},
+            {"interval", past.interval()}, {"actions", collected(past.actions(), action)}};
 }
 
 json seek_cycle(Session& s, const Request& r) {

@@ -26,10 +26,9 @@ json json_of(const bug::ItemProperty& p) {
 }
 
 json json_of(const bug::WorldItem& i) {
-    json parts = json::array(), properties = json::array();
-    for (const auto& p : i.parts)
-        parts.push_back({{"x", p.x}, {"y", p.y}, {"yaw", p.yaw}, {"size", p.size}, {"color", p.color}});
-    for (const auto& p : i.properties) properties.push_back(json_of(p));
+    const auto part = [](const auto& p) {
+        return json{{"x", p.x}, {"y", p.y}, {"yaw", p.yaw}, {"size", p.size}, {"color", p.color}};
+    };
     return {{"id", i.id},
             {"name", i.name},
             {"kind", i.kind},
@@ -39,8 +38,8 @@ json json_of(const bug::WorldItem& i) {
             {"y", i.y},
             {"z", i.z},
             {"yaw", i.yaw},
-            {"parts", std::move(parts)},
-            {"properties", std::move(properties)}};
+            {"parts", collected(i.parts, part)},
+            {"properties", collected(i.properties, [](const auto& p) { return json_of(p); })}};
 }
 
 /// The ids that an operation has made: one, several or none.
@@ -122,10 +121,10 @@ json save_world(Session& s, const Request& r) {
 }
 
 json list_kinds(Session&, const Request&) {
-    json kinds = json::array();
-    for (const auto& [kind, title, group] : bug::kinds_of_items())
-        kinds.push_back({{"kind", kind}, {"title", title}, {"group", group}});
-    return {{"kinds", std::move(kinds)}};
+    const auto kind = [](const auto& k) {
+        return json{{"kind", k.kind}, {"title", k.title}, {"group", k.group}};
+    };
+    return {{"kinds", collected(bug::kinds_of_items(), kind)}};
 }
 
 }  // namespace
@@ -145,14 +144,13 @@ std::string running_world(Session& s) {
 
 json describe_world_text(Session& s) {
     const auto& world = world_text(s);
-    json items = json::array();
     bug::ModelTexts models(world.path);
-    for (const auto& i : bug::items_of_world(world.text, models)) items.push_back(json_of(i));
     return {{"type", "world_document"},
             {"file", world.path},
             {"dirty", world.text != world.saved},
             {"shipped", s.comes_with_forage(world.path)},
-            {"items", std::move(items)}};
+            {"items",
+             collected(bug::items_of_world(world.text, models), [](const auto& i) { return json_of(i); })}};
 }
 
 void set_world_text(Session& s, const std::string& text) {
