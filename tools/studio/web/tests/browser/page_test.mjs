@@ -14,10 +14,11 @@ export default async function({ start, open, faults, step }) {
   await page.getByRole('navigation').getByText('Head Direction Cells').waitFor();
 
   step('all buttons of the diagram have room; that there is nothing to undo is reported, and is no error');
-  const tools = () => page.getByRole('toolbar', { name: 'Editing' }).evaluate((bar) => {
-    const all = [...bar.querySelectorAll('button')].map((b) => [b.ariaLabel ?? b.textContent, b.getBoundingClientRect()]);
-    return { cut: all.filter(([, r]) => r.right > bar.getBoundingClientRect().right).map(([name]) => name), places: all.filter(([name]) => /^Select|^Comment|^Connect/.test(name)).map(([name, r]) => [name, r.x]) };
-  });
+  const tools = () =>
+    page.getByRole('toolbar', { name: 'Editing' }).evaluate((bar) => {
+      const all = [...bar.querySelectorAll('button')].map((b) => [b.ariaLabel ?? b.textContent, b.getBoundingClientRect()]);
+      return { cut: all.filter(([, r]) => r.right > bar.getBoundingClientRect().right).map(([name]) => name), places: all.filter(([name]) => /^Select|^Comment|^Connect/.test(name)).map(([name, r]) => [name, r.x]) };
+    });
   const ofGroups = await tools();
   assert.deepEqual(ofGroups.cut, []);
   await page.getByRole('group', { name: 'Processes' }).getByRole('button', { name: 'System' }).click();
