@@ -91,13 +91,13 @@ export default async function({ folder, context, start, open, faults, step }) {
   await page.keyboard.press('Tab');
   await page.keyboard.press('Control+Space');
   await option(/Bug\/Light/).waitFor();
-  await page.keyboard.type('bug/light');
-  await accept(/Bug\/Light/);
+  await page.keyboard.type('selection/ur');
+  await accept(/Selection\/UR/);
   await page.keyboard.press('Tab');
   await page.keyboard.press('Control+Space');
-  await page.keyboard.type('bug/sens');
-  await accept(/Bug\/Sensor/);
-  assert.match(await line(), /<Connection id="new" name="New" source="bug\.light" target="bug\.sensor"><\/Connection>/);
+  await page.keyboard.type('motor in');
+  await accept(/Selection\/Motor In/);
+  assert.match(await line(), /<Connection id="new" name="New" source="selection\.ur" target="selection\.motor_in"><\/Connection>/);
   await page.keyboard.press('Tab');
   await page.keyboard.type('<Syn');
   await accept(/Synapse/);
