@@ -65,7 +65,7 @@ bool reads_input(const NeuronType& type) {
     return std::ranges::any_of(type.reads, [](bool reads) { return reads; });
 }
 
-/// Whether a group stays silent because nothing leads there.
+/// Whether nothing leads to a group whose type reads inputs.
 bool is_undriven(const Wiring::Group& wires, const NeuronType& type) {
     return !wires.driven() && wires.ignored.empty() && wires.disabled.empty() && reads_input(type);
 }
@@ -73,7 +73,7 @@ bool is_undriven(const Wiring::Group& wires, const NeuronType& type) {
 std::string undriven_text(const Layout& layout, std::size_t group, const Wiring::Group& wires) {
     std::string out = fmt::format("nothing drives group '{}'", layout.groups[group].path);
     if (!wires.readers.empty())
-        out += fmt::format(", so the module of process '{}' reads only zeros there",
+        out += fmt::format(", which the module of process '{}' reads",
                            layout.modules[static_cast<std::size_t>(wires.readers.front())].process);
     return out;
 }

@@ -287,7 +287,7 @@ export default async function({ forage, folder, start, open, faults, step }) {
   for (const name of ['Motor', 'Proximity sensor', 'Target sensor']) await diagram.locator(`.svelte-flow__node[aria-label="${name}"]`).waitFor(); // its text may be shorter
   assert.equal(await problems.count(), 0);
   await page.getByRole('button', { name: 'Run', exact: true }).click();
-  await page.locator('.notice').filter({ hasText: "Nothing drives group 'Bug/Motor', so the module of process 'Bug' reads only zeros there." }).getByRole('button', { name: 'Connect a group to it' }).click();
+  await page.locator('.notice').filter({ hasText: "Nothing drives group 'Bug/Motor', which the module of process 'Bug' reads." }).getByRole('button', { name: 'Connect a group to it' }).click();
   await until(page, 'the motor as the target', () => [...document.querySelectorAll('dialog[open] option:checked')].some((o) => o.textContent === 'Bug/Motor'));
   await page.getByRole('dialog', { name: 'Connect' }).getByRole('button', { name: 'Cancel' }).click();
   await page.getByRole('button', { name: 'Pause', exact: true }).click();
