@@ -133,6 +133,7 @@ export function applyLayout(content: LayoutContent | null | undefined): boolean 
   for (const p of content?.problems ?? []) actions.notify('error', problemText(p));
   if (content?.dock) {
     dock.restore(content.dock as never);
+    dock.forgetRooms();
     if (frame.room !== 'wide') dock.gather(frame.room);
   } else if (content?.plots?.length) arrange(content.plots);
   return !!content?.dock || !!content?.plots?.length;
