@@ -12,8 +12,10 @@ class DocumentState {
   /** The system of which it is a backup, which is saved under another name only. */
   backupOf = $derived(this.message?.backup_of ?? null);
   dirty = $derived(this.message?.dirty ?? false);
-  /** The generation of the last change that the tutorial made as its text asks for it; such changes need not be saved. */
-  own = $state<number>();
+  /** The document as the tutorial left it, which its text asked for: that need not be saved. */
+  own = $state.raw<DocumentMessage | null>(null);
+  /** Whether the user has changes that are not saved. */
+  unsaved = $derived(this.dirty && this.own !== this.message);
   problems = $derived<DocumentProblem[]>(this.message?.problems ?? []);
   /** Whether the text has a system that forms can change. */
   readable = $derived(this.message?.readable ?? true);

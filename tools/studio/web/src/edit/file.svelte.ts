@@ -202,18 +202,15 @@ class FileDialog {
 
 export const fileDialog = new FileDialog();
 
-/** The generation of the last change. */
-export const lastChange = () => actions.log.at(-1)?.generation;
-
 /** Whether the system or its world has changes of the user that are not saved. */
-export const unsaved = () => (editing.dirty && (editing.own === undefined || editing.own !== lastChange())) || worldFile.dirty;
+export const unsaved = () => editing.unsaved || worldFile.dirty;
 
-const unsavedText = () => (editing.dirty && worldFile.dirty ? 'The system and its world have' : editing.dirty ? 'The system has' : 'The world has');
+const unsavedText = () => (editing.unsaved && worldFile.dirty ? 'The system and its world have' : editing.unsaved ? 'The system has' : 'The world has');
 
 /** Saves what changed. Returns whether all is saved. */
 export async function saveAll(): Promise<boolean> {
   if (worldFile.dirty && !(await saveWorld())) return false;
-  if (editing.dirty) await save();
+  if (editing.unsaved) await save();
   return !unsaved();
 }
 

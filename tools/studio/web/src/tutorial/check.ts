@@ -22,20 +22,22 @@ function answerIn(field: HTMLElement): Answer | undefined {
 async function find(check: Check, before: Finding | undefined, field: HTMLElement | undefined, looked: boolean): Promise<Finding> {
   const { asked } = check, answer = field && answerIn(field);
   if (field && !answer) return { right: null, text: `Not answered yet: ${field.querySelector('legend')!.innerText.replace(/^Predict, then look: /, '')}` };
-  // What was found with other values stays.
-  if (!(await areInForce(check.given))) return before?.looked ? before : untried(check);
+  // What was found with other values stays, until the answer is another one.
+  const kept = before?.looked && before.answer === answer?.text ? before : undefined;
+  if (!(await areInForce(check.given))) return kept ?? untried(check);
   // What was seen stays, too: a light at the left and one at the right are not seen at once.
   if (check.seen) return before?.right ? before : findSeen(check, await holds(check.seen.condition));
   if (asked && 'choice' in asked) return findChoice(check, answer!.text, answer!.number === asked.choice, looked);
   if (asked && 'quantity' in asked) {
     const { quantity, within, when } = asked, said = answer!.number;
-    if (!(await holds(when))) return before?.looked ? before : { right: null, text: `You said ${said}. Now look whether it is so, then check again.` };
+    if (kept?.right) return kept;
+    if (!(await holds(when))) return kept ?? { right: null, text: `You said ${said}. Now look whether it is so, then check again.` };
     return findNumber(check, said, await holds(`${quantity} >= ${said - within} and ${quantity} <= ${said + within}`));
   }
   const { trials } = await request('trials', {});
   const { change, trials: since } = sinceLastChange(trials, actions.log, run.status?.epoch), reached = since.map((t) => t.reached_target);
   if (check.lasts) return findLasting(check, (run.status?.seconds ?? 0) * (1 - (change?.cycle ?? 0) / (run.status?.cycle || 1)));
-  return asked && 'count' in asked ? findCount({ ...check, asked }, answer!.number, reached) : findHits(check, reached);
+  return asked && 'count' in asked ? findCount({ ...check, asked }, answer!.number, reached) : findHits(check, reached, change !== undefined);
 }
 
 /** Shows the findings below the button, and returns them. `before` are those of the last time. */
@@ -47,16 +49,24 @@ export async function showFindings(button: HTMLElement, checks: Check[], before:
   const choice = (check: Check) => Number(check.asked !== undefined && 'choice' in check.asked);
   for (const i of [...checks.keys()].sort((a, b) => choice(checks[a]!) - choice(checks[b]!))) {
     const check = checks[i]!, others = found.filter((_, other) => !choice(checks[other]!));
-    const now = await find(check, before[i], fields[i], others.every((f) => f.looked));
-    found[i] = { ...now, looked: before[i]?.looked || now.right !== null };
+    const field = fields[i], now = await find(check, before[i], field, others.every((f) => f.looked));
+    found[i] = { ...now, looked: before[i]?.looked || now.right !== null, answer: field && answerIn(field)?.text };
   }
+  // What was seen would answer the question about the same trials.
+  const asks = (check: Check) => check.asked !== undefined && 'count' in check.asked;
+  for (const [i, check] of checks.entries())
+    if (check.hits && checks.some((c, j) => asks(c) && !found[j]!.right && String(c.given) === String(check.given))) found[i] = { ...found[i]!, right: null, text: 'Count first: the question above asks how many.' };
   const list = button.parentElement!.querySelector('ul')!;
+  listFindings(list, found);
+  list.scrollIntoView({ block: 'nearest' });
+  return found;
+}
+
+export function listFindings(list: Element, found: Finding[]): void {
   list.replaceChildren(...found.map(({ right, text }) => {
     const line = document.createElement('li');
     line.className = right === null ? 'open' : right ? 'right' : 'wrong';
     line.textContent = text;
     return line;
   }));
-  list.scrollIntoView({ block: 'nearest' });
-  return found;
 }

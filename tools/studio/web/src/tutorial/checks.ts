@@ -73,6 +73,8 @@ export interface Finding {
   right: boolean | null;
   text: string;
   looked?: boolean;
+  /** What was answered. */
+  answer?: string | undefined;
 }
 
 const percent = (share: number) => `${Math.round(100 * share)} %`;
@@ -86,15 +88,24 @@ export const untried = ({ given }: Check): Finding => ({ right: null, text: begu
 /** What is said while too few trials have finished; undefined when there are enough. */
 const wanting = ({ trials }: Counted, reached: boolean[]) => (reached.length < trials ? `${reached.length} of ${trials} trials have finished. Run the others, then check again.` : undefined);
 
-/** What trials, in their order, say: whether each of them reached the target. */
-export function findHits({ given, hits }: Check, reached: boolean[]): Finding {
+/** Those that a check is about. */
+const countedIn = ({ last, trials }: Counted, reached: boolean[]) => reached.slice(0, trials).slice(-last);
+
+/** What trials, in their order, say: whether each of them reached the target. `learned` is whether a change came before them, but no start. */
+export function findHits({ given, hits }: Check, reached: boolean[], learned = false): Finding {
   const { low, high, last, trials } = hits!, more = wanting(hits!, reached);
   if (more) return { right: null, text: begun(given, more) };
-  const counted = reached.slice(-last), misses = counted.filter((hit) => !hit).length, share = 1 - misses / last;
+  const counted = countedIn(hits!, reached), misses = counted.filter((hit) => !hit).length, share = 1 - misses / last;
   const seen = `you have seen ${misses} ${misses === 1 ? 'miss' : 'misses'} in ${last === trials ? '' : 'the last '}${last} trials (${percent(1 - share)})`;
   const expected = `the text expects ${percent(1 - high)} to ${percent(1 - low)}`;
   const right = share >= low && share <= high;
-  return { right, text: begun(given, right ? `${seen}: right, ${expected}.` : `${seen}, but ${expected}. One run may differ by chance: repeat it with another seed.`) };
+  return {
+    right,
+    text: begun(
+      given,
+      right ? `${seen}: right, ${expected}.` : `${seen}, but ${expected}. ${learned ? 'These trials begin with what was learned before: press Stop, and run them again.' : 'One run may differ by chance: repeat it with another seed.'}`,
+    ),
+  };
 }
 
 /** Whether the condition of a check holds now. */
@@ -111,7 +122,7 @@ const answered = ({ given, asked }: Check, answer: string, right: boolean, seen 
 export function findCount(check: Check & { asked: { count: Counted & { what: string } } }, answer: number, reached: boolean[]): Finding {
   const { count } = check.asked, more = wanting(count, reached);
   if (more) return { right: null, text: begun(check.given, `you said ${answer}. ${more}`) };
-  const found = reached.slice(-count.last).filter((hit) => hit === (count.what === 'hits')).length, one = count.what === 'hits' ? 'hit' : 'miss';
+  const found = countedIn(count, reached).filter((hit) => hit === (count.what === 'hits')).length, one = count.what === 'hits' ? 'hit' : 'miss';
   return answered(check, String(answer), answer === found, `, it was ${found} ${found === 1 ? one : count.what} in ${count.last === count.trials ? '' : 'the last '}${count.last} trials`);
 }
 
@@ -124,4 +135,4 @@ export const findChoice = (
   answer: string,
   right: boolean,
   looked: boolean,
-): Finding => (looked ? answered(check, `“${answer}”`, right) : { right: null, text: `You said “${answer}”. Now look whether it is so, then check again.` });
+): Finding => (looked ? answered(check, `“${answer}”`, right) : { right: null, text: `You said “${answer}”. It is judged after the other lines of this list.` });

@@ -108,7 +108,7 @@ export default async function({ site, folder, start, open, faults, step }) {
   await reflex.getByText('Not answered yet: the robot explores until').waitFor();
   await reflex.getByLabel('From all three starts.').check();
   await reflex.getByRole('button', { name: 'Check what I have seen' }).click();
-  await reflex.getByText('You said “From all three starts”. Now look whether it is so, then check again.').waitFor();
+  await reflex.getByText('You said “From all three starts”. It is judged after the other lines of this list.').waitFor();
   await page.getByRole('button', { name: 'Max', exact: true }).click();
   await page.getByRole('group', { name: 'Trials' }).getByRole('button', { name: 'Run', exact: true }).click();
   await page.getByText('14 of 30 reached the target').waitFor();
@@ -215,7 +215,7 @@ export default async function({ site, folder, start, open, faults, step }) {
   };
   await driven(['Home'], 'Right, the robot turns to its left.');
   await driven(['End'], 'Right, it drives backwards.');
-  await hand.getByText('You said “It turns to the right on the spot”. Now look whether it is so, then check again.').waitFor();
+  await hand.getByText('You said “It turns to the right on the spot”. It is judged after the other lines of this list.').waitFor();
   await driven(['End', ...Array(4).fill('ArrowUp')], 'Right, cell (9, 5) drives it.');
   assert.deepEqual(await hand.getByRole('listitem').evaluateAll((all) => all.map((l) => l.className)), Array(4).fill('right'));
 

@@ -21,6 +21,8 @@ describe('a check', () => {
   it('counts misses, and says what the text expects only when there are enough trials', () => {
     const check = readCheck('hits 0.7 to 1 of 12 trials');
     expect(findHits(check, run('-+++'))).toEqual({ right: null, text: '4 of 12 trials have finished. Run the others, then check again.' });
+    expect(findHits(check, run('-++++-++++++---')).right).toBe(true); // of the first twelve
+    expect(findHits(check, run('-'.repeat(12)), true).text).toMatch(/press Stop/);
     expect(findHits(check, run('-++++-++++++'))).toEqual({ right: true, text: 'You have seen 2 misses in 12 trials (17 %): right, the text expects 0 % to 30 %.' });
     expect(findHits(check, run('------++++++')).right).toBe(false);
   });
@@ -60,7 +62,7 @@ describe('a question', () => {
   });
   it('that is a prediction is judged when the rest was looked at', () => {
     const check = readAsk('choice 2; the plot');
-    expect(findChoice(check, 'later', true, false)).toEqual({ right: null, text: 'You said “later”. Now look whether it is so, then check again.' });
+    expect(findChoice(check, 'later', true, false)).toEqual({ right: null, text: 'You said “later”. It is judged after the other lines of this list.' });
     expect(findChoice(check, 'later', true, true).right).toBe(true);
     expect(findChoice(check, 'later', false, true).text).toBe('You said “later”, and it is not so. Look again: the plot.');
   });
