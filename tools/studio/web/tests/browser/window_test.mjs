@@ -234,7 +234,9 @@ export default async function({ site, start, open, faults, step }) {
   }
   await other.setViewportSize(sizes[0]);
   const places = () => Promise.all([other.getByLabel('Seed of the run'), other.getByLabel('Colour scale').first(), arena.getByRole('button', { name: 'Rays' })].map(async (e) => Math.round((await e.boundingBox()).x)));
-  const began = await places();
+  await find(other, 'layout: overview');
+  let began = [];
+  await eventually('panels that have their places', async () => String(began) === String(began = await places()));
   await other.getByRole('button', { name: 'Max', exact: true }).click();
   await other.getByRole('button', { name: 'Run', exact: true }).click();
   await until(other, 'many cycles', () => Number(document.querySelector('[aria-label="Moment of the run"]').value) > 1000);
