@@ -65,9 +65,9 @@ bool reads_input(const NeuronType& type) {
     return std::ranges::any_of(type.reads, [](bool reads) { return reads; });
 }
 
-/// Whether nothing leads to a group whose type reads inputs.
-bool is_undriven(const Wiring::Group& wires, const NeuronType& type) {
-    return !wires.driven() && wires.ignored.empty() && wires.disabled.empty() && reads_input(type);
+/// Whether anything leads to a group, even if it has no effect.
+bool is_reached(const Wiring::Group& wires) {
+    return wires.driven() || !wires.ignored.empty() || !wires.disabled.empty();
 }
 
 std::string undriven_text(const Layout& layout, std::size_t group, const Wiring::Group& wires) {
@@ -296,11 +296,11 @@ std::vector<std::string> wiring_notes(const model::System& system, const Layout&
         const auto& wires = wiring.groups[g];
         const bool used = wires.has_targets || !wires.readers.empty();
         if (manipulated.contains(static_cast<int>(g))) continue;
-        if (wires.driven() || !wires.ignored.empty() || !wires.disabled.empty()) continue;
+        if (is_reached(wires)) continue;
         if (!used)
             out.push_back(
                 fmt::format("group '{}' has neither incoming nor outgoing connections", about.path));
-        else if (is_undriven(wires, about.type))
+        else if (reads_input(about.type))
             out.push_back(undriven_text(layout, g, wires));
     }
     std::map<std::string_view, std::vector<std::string>> lines;  // by name
@@ -319,8 +319,8 @@ std::vector<UndrivenInput> undriven_inputs(const model::System& system, const La
     std::vector<UndrivenInput> out;
     const Wiring wiring(system, layout);
     for (std::size_t g = 0; g < wiring.groups.size(); ++g)
-        if (const auto& wires = wiring.groups[g]; !wires.readers.empty() &&
-                                                  is_undriven(wires, layout.groups[g].type) &&
+        if (const auto& wires = wiring.groups[g]; !wires.readers.empty() && !is_reached(wires) &&
+                                                  reads_input(layout.groups[g].type) &&
                                                   !manipulated.contains(static_cast<int>(g)))
             out.push_back({static_cast<int>(g), undriven_text(layout, g, wires)});
     return out;
