@@ -31,7 +31,7 @@ async function find(check: Check, before: Finding | undefined, field: HTMLElemen
   if (asked && 'quantity' in asked) {
     const { quantity, within, when } = asked, said = answer!.number;
     if (kept?.right) return kept;
-    if (!(await holds(when))) return kept ?? { right: null, text: `You said ${said}. Now look whether it is so, then check again.` };
+    if (!(await holds(when))) return kept ?? { right: null, text: `You said ${said}. Run it until then, and check again.` };
     return findNumber(check, said, await holds(`${quantity} >= ${said - within} and ${quantity} <= ${said + within}`));
   }
   const { trials } = await request('trials', {});
