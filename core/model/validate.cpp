@@ -392,20 +392,21 @@ class Validator {
 
     /// A group receives the sum of all outputs that lead to it, which is rarely meant.
     void check_single_writer(const Process& process, const CrossReference& output, const std::string& path) {
-        const auto [it, fresh] = writers_.emplace(output.target, std::pair{&process, &output});
+        const auto [it, fresh] = writers_.emplace(output.target, Writer{&process, &output, path});
         if (fresh) return;
-        const auto& [other, first] = it->second;
+        const auto& other = it->second.process;
         const bool same = other == &process;
         const Severity severity = same || out_.lenient ? Severity::warning : Severity::error;
         found_by_modules_ += severity == Severity::error;
-        out_.add({severity,
-                  output.at,
-                  fmt::format(
-                      "'{}' writes to '{}', to which '{}' of {} writes, too", output.name, path, first->name,
-                      same ? "the same module" : fmt::format("the module of '{}'", trim(other->name))),
-                  "give each output a group of its own; connections can add their activities",
-                  {},
-                  {}});
+        out_.add(
+            {severity,
+             output.at,
+             fmt::format("'{}' writes to '{}', to which '{}' of {} writes, too", output.name, path,
+                         it->second.output->name,
+                         same ? "the same module" : fmt::format("the module of '{}'", trim(other->name))),
+             "give each output a group of its own; connections can add their activities",
+             {},
+             {}});
     }
 
     /// Checks the sizes of a module's groups and, when they are right, lets an enabled module check itself.
@@ -459,6 +460,13 @@ class Validator {
                 out_.warning(c.at, fmt::format("connection '{}' has no effect: {} reads no {} input", c.name,
                                                type->name, name_of(c.kind)));
         }
+        if (const auto writer = writers_.find(c.target); writer != writers_.end())
+            out_.warning(
+                c.at,
+                fmt::format("connection '{}' leads to '{}', to which the module of process '{}' writes: its "
+                            "cells get the sum of both",
+                            trim(c.name), writer->second.path, trim(writer->second.process->name)),
+                "lead it to another group, unless the sum is meant");
         const bool weighted = std::holds_alternative<Weights>(c.pattern);
         const auto& use = synapse_of(c);
         const SynapseType* type = registry_.synapse(use.type);
@@ -619,30 +627,16 @@ class Validator {
         int count = 0;
     };
     std::map<std::pair<std::string, std::string>, Unusual> unusual_;  ///< by file and hint
-    /// The first output that leads to a group, by the group's id, of the enabled modules.
-    std::map<std::string_view, std::pair<const Process*, const CrossReference*>> writers_;
+    struct Writer {
+        const Process* process;
+        const CrossReference* output;
+        std::string path;  ///< of the group
+    };
+    std::map<std::string_view, Writer> writers_;  ///< the first of the enabled modules, by the group's id
     GroupIndex groups_;
 };
 
 }  // namespace
-
-void warn_of_sums(const System& system, Diagnostics& diagnostics) {
-    std::map<std::string_view, const Process*> writers;  // by the group's id
-    for (const auto& p : system.processes)
-        if (p.module && p.module_enabled)
-            for (const auto& output : p.module->outputs) writers.emplace(output.target, &p);
-    const GroupIndex groups(system);
-    for (const auto& c : system.connections) {
-        const auto target = groups.find(c.target);
-        if (const auto writer = writers.find(c.target); target.group && writer != writers.end())
-            diagnostics.warning(
-                c.at,
-                fmt::format("connection '{}' leads to '{}', to which the module of process '{}' writes: its "
-                            "cells get the sum of both",
-                            trim(c.name), trim(target.group->name), trim(writer->second->name)),
-                "lead it to another group, unless the sum is meant");
-    }
-}
 
 void check_time_constant(const std::string& name, std::string_view doc, double tau, double dt,
                          const Location& at, Diagnostics& out) {

@@ -12,13 +12,11 @@ namespace forage::model {
 
 /// Reports duplicate ids; unknown types, parameters and states (with a guess of what is meant); values that
 /// are invalid or outside their range; cross references that are unset or refer to nothing; groups of the
-/// wrong size; connections between groups that do not exist, or of a kind that the target does not read.
+/// wrong size; connections between groups that do not exist, of a kind that the target does not read, or to
+/// a group to which a module writes, too.
 /// Modules check themselves against `environment`, which may be null.
 void validate(const System& system, const Registry& registry, Diagnostics& diagnostics,
               Environment* environment = nullptr);
-
-/// Warns of connections to groups to which an enabled module writes, too.
-void warn_of_sums(const System& system, Diagnostics& diagnostics);
 
 /// Reports a time constant (s) that is not positive, or too short for cycles of `dt` s.
 void check_time_constant(const std::string& name, std::string_view doc, double tau, double dt,

@@ -135,7 +135,7 @@ class Robot(unittest.TestCase):
 
     def test_a_connection_to_a_group_that_a_module_writes_is_a_warning(self):
         err = self.check(('source="bug.light" target="reactive.us"', 'source="bug.light" target="bug.sensor"'), status=0)
-        self.assertIn("leads to 'Sensor', to which the module of process 'Bug' writes: its cells get the sum of both", err)
+        self.assertIn("leads to 'Bug/Sensor', to which the module of process 'Bug' writes: its cells get the sum of both", err)
 
     def test_two_groups_of_one_name_are_a_warning(self):
         err = self.check(('id="bug.place_cells" name="Place Cells"', 'id="bug.place_cells" name="GPS"'), status=0)

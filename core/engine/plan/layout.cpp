@@ -39,7 +39,6 @@ std::optional<Layout> make_layout(const model::System& system, const Registry& r
                                   Diagnostics& diagnostics, Environment* environment) {
     const int errors_before = diagnostics.errors();
     model::validate(system, registry, diagnostics, environment);
-    model::warn_of_sums(system, diagnostics);
     if (diagnostics.errors() > errors_before) return std::nullopt;
 
     const UpdateOrder order(system);

@@ -26,7 +26,6 @@ namespace {
 void check(const model::System& system, Registry types, Diagnostics& out, Environment* environment) {
     equations::add_types(system, types, out);
     model::validate(system, types, out, environment);
-    model::warn_of_sums(system, out);
 }
 
 namespace fs = std::filesystem;
