@@ -8,8 +8,16 @@
 #include "core/base/print.h"
 #include "core/run/input_error.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/options.h"
 
 namespace forage::tool {
+namespace {
+
+struct BuildPluginOptions {
+    std::string source;
+    std::string output;  ///< empty: the folder plugins beside the source
+    bool debug = false;
+};
 
 int build_plugin(const BuildPluginOptions& o) {
     std::string output;
@@ -35,6 +43,21 @@ int build_plugin(const BuildPluginOptions& o) {
     if (!diagnostics.failed())
         print("'{}' is trusted from now on; forage trust --remove ends this\n", plugins);
     return fine;
+}
+
+}  // namespace
+
+void add_build_plugin(Program& program) {
+    auto& o = program.options<BuildPluginOptions>();
+    auto& command = program.add("build-plugin", "Compile a source file with types of your own",
+                                [&o] { return build_plugin(o); });
+    command.footer(
+        "The compiler is the one in CXX, or c++; CXXFLAGS are added.\nExample:\n  forage build-plugin "
+        "adaptive.cpp");
+    add_value(command, "FILE", o.source, " ", "Source file (.cpp)")->required();
+    add_value(command, "-o,--output", o.output, "FILE", "Plugin to write [plugins/NAME.so beside FILE]")
+        ->check(named("file"));
+    command.add_flag("--debug", o.debug, "For a debugger; the plugin checks each index, and is slower");
 }
 
 }  // namespace forage::tool

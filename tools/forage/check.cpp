@@ -6,6 +6,7 @@
 #include "core/engine/simulation.h"
 #include "core/run/explain.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/options.h"
 
 namespace forage::tool {
 namespace {
@@ -13,8 +14,6 @@ namespace {
 std::string counted(std::size_t n, std::string_view one, std::string_view many = "") {
     return fmt::format("{} {}{}", n, n == 1 || many.empty() ? one : many, n == 1 || !many.empty() ? "" : "s");
 }
-
-}  // namespace
 
 int check(const RunInput& input) {
     Diagnostics diagnostics;
@@ -40,6 +39,17 @@ int check(const RunInput& input) {
     for (const auto& note : wiring_notes(loaded->system, layout)) print("  note: {}\n", note);
     if (loaded->world) print("{}", bug::describe(*loaded->world));
     return fine;
+}
+
+}  // namespace
+
+void add_check(Program& program) {
+    auto& input = program.options<RunInput>();
+    auto& command = program.add("check", "Check a system (and a world) and report all mistakes",
+                                [&input] { return check(input); });
+    add_input(command, input);
+    command.footer(
+        "Example:\n  forage check systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world");
 }
 
 }  // namespace forage::tool

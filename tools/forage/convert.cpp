@@ -18,9 +18,22 @@
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/options.h"
 
 namespace forage::tool {
 namespace {
+
+struct ConvertOptions {
+    std::string input, output;         ///< .iqr or .iqrProcess files
+    std::vector<std::string> imports;  ///< process files to add
+    /// Name or id of the process to write as a file of its own; empty: the whole system.
+    std::string extract;
+    std::string as_plugin;  ///< name of a declared type to write as the source of a plugin; empty: none
+    std::vector<std::string> plugins;
+    bool terse = false, full = false;
+    bool original = false;  ///< whether to write everything that the original requires
+    bool embed = false, lenient = false;
+};
 
 namespace fs = std::filesystem;
 
@@ -145,8 +158,6 @@ std::string converted(const ConvertOptions& o, std::string& notes, Diagnostics& 
     return xml::write_process(file);
 }
 
-}  // namespace
-
 int convert(const ConvertOptions& options) {
     Diagnostics diagnostics;
     diagnostics.lenient = options.lenient;
@@ -169,6 +180,44 @@ int convert(const ConvertOptions& options) {
         std::fputs(text.c_str(), stdout);
     print(prints ? stderr : stdout, "{}", notes);
     return fine;
+}
+
+}  // namespace
+
+void add_convert(Program& program) {
+    auto& o = program.options<ConvertOptions>();
+    auto& command =
+        program.add("convert", "Read a system or process file and write it in the standard layout",
+                    [&o] { return convert(o); });
+    command.footer(
+        "Example:\n"
+        "  forage convert systems/reactive_foraging.iqr bug.iqrProcess --extract Bug\n"
+        "  forage convert systems/models/oja.iqr oja.cpp --as-plugin oja");
+    add_value(command, "IN", o.input, "FILE", "File to read (.iqr or .iqrProcess)")->required();
+    add_value(command, "OUT", o.output, "FILE",
+              "File to write (.iqr or .iqrProcess; .cpp with --as-plugin); may be the same, or - to print it")
+        ->required()
+        ->check(named("file"));
+    repeated(command.add_option("--import", o.imports,
+                                "Add a copy of a process from an .iqrProcess file; may be repeated"))
+        ->option_text("FILE");
+    add_value(command, "--extract", o.extract, "PROCESS",
+              "Write this process alone, with the connections among its groups");
+    add_value(command, "--as-plugin", o.as_plugin, "TYPE",
+              "Write this type of the system as the source of a plugin that computes the same");
+    add_plugins(command, o.plugins);
+    command.add_flag("--embed", o.embed, "Write the content of linked processes instead of links");
+    auto* terse = command.add_flag(
+        "--terse", o.terse,
+        "Leave out what is the same in most systems, and write sizes and weights as attributes");
+    command.add_flag("--full", o.full, "Write what the file leaves out, and sizes and weights as elements")
+        ->excludes(terse);
+    command.add_flag("--original", o.original,
+                     "Write plain numbers instead of constants and formulas, and what the file leaves out "
+                     "and the original iqr requires: patterns, arborizations, "
+                     "functions, places in the diagram");
+    command.add_flag("--lenient", o.lenient,
+                     "Unknown elements and attributes are warnings, and are not written");
 }
 
 }  // namespace forage::tool

@@ -14,6 +14,7 @@
 #include "core/run/experiment/tables.h"
 #include "tools/cluster/slurm.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/options.h"
 #include "tools/forage/progress.h"
 #include "tools/forage/stop.h"
 
@@ -192,6 +193,91 @@ int experiment(const ExperimentOptions& o) {
     const int met = print_findings(o.system, findings(*wanted, *results, diagnostics));
     print("  results in {}\n", std::filesystem::path(wanted->results_file()).parent_path().string());
     return met;
+}
+
+void add_experiment(Program& program) {
+    auto& o = program.options<ExperimentOptions>();
+    auto& command = program.add("experiment",
+                                "Run a system many times, with different seeds and parameters, on all cores",
+                                [&o] { return experiment(o); });
+    command.footer(
+        "Runs that were finished before an interruption are not repeated. docs/reference/experiment.md\n"
+        "describes FILE.\n"
+        "Example:\n"
+        "  forage experiment systems/light_threshold.xml\n"
+        "On a cluster (docs/how-to/cluster.md):\n"
+        "  forage experiment systems/light_threshold.xml --slurm --partition short --time 1:00:00\n"
+        "  forage experiment systems/light_threshold.xml --status");
+    add_value(command, "FILE", o.file, " ", "Experiment file (.xml)")->required();
+    add_value(command, "-o,--output", o.directory, "DIR",
+              "Directory for results [forage-out/ and FILE's name]")
+        ->check(named("directory"));
+    add_value(command, "-j,--jobs", o.jobs, "N", "Number of simultaneous runs [one per core]")
+        ->transform(threads());
+    add_plugins(command, o.plugins);
+    command.add_flag("--fresh", o.fresh, "Repeat finished runs");
+    repeated(command.add_option(
+                 "--table-format", o.formats,
+                 "Write the results also as results.npy or results.h5: npy or hdf5; may be repeated"))
+        ->check(one_of({"npy", "hdf5"}))
+        ->option_text("FORMAT");
+    auto* bundle = add_value(command, "--bundle", o.bundle, "FILE",
+                             "Write everything that repeats the experiment, and its results, to one "
+                             ".zip file for 'forage rerun' and for archives")
+                       ->check(named("file"));
+    command.add_flag("-q,--quiet", o.quiet, "Print errors only");
+    const std::string cluster = "Many machines";
+    auto* shard = command.add_option("--shard", o.shard, "Execute part I of N parts only, such as 3/10");
+    shard->check(CLI::Validator(
+        [](const std::string& text) {
+            return parse_shard(text) ? std::string() : fmt::format("'{}' is not a part such as 3/10", text);
+        },
+        ""));
+    shard->option_text("I/N")->group(cluster);
+    auto* merge = command.add_flag("--merge", o.merge, "Write the tables of what the parts have left");
+    auto* status = command.add_flag("--status", o.status, "Show how many runs are finished, and the rate");
+    auto* slurm = command.add_flag("--slurm", o.slurm, "Submit all parts to Slurm, and a merge behind them");
+    for (auto* flag : {merge, status, slurm}) flag->group(cluster)->excludes(shard);
+    for (auto* flag : {shard, merge, status, slurm}) flag->excludes(bundle);
+    merge->excludes(status)->excludes(slurm), status->excludes(slurm);
+    add_value(command, "--after-round", o.after_round, "N",
+              "With --merge, in the script of --slurm: when round N is complete and another one "
+              "follows, submit it")
+        ->needs(merge)
+        ->group(cluster);
+    command.add_flag("--dry-run", o.dry_run, "With --slurm: only write the scripts")
+        ->needs(slurm)
+        ->group(cluster);
+    add_value(command, "--array-size", o.tasks, "N",
+              "With --slurm: number of parts [100, or that of the runs]")
+        ->needs(slurm)
+        ->transform(count())
+        ->group(cluster);
+    const auto pass_on = [&](const char* name, const char* description, const char* value) {
+        command
+            .add_option_function<std::string>(
+                name,
+                [&o, option = std::string(name)](const std::string& v) {
+                    o.sbatch.push_back(option + "=" + v);
+                },
+                description)
+            ->needs(slurm)
+            ->option_text(value)
+            ->group(cluster);
+    };
+    pass_on("--partition", "With --slurm: the partition", "NAME");
+    pass_on("--time", "With --slurm: the time limit of a part", "TIME");
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--sbatch",
+            [&o](const std::vector<std::string>& more) {
+                o.sbatch.insert(o.sbatch.end(), more.begin(), more.end());
+            },
+            "With --slurm: another option of sbatch, such as --account=ME")
+        ->needs(slurm)
+        ->allow_extra_args(false)
+        ->option_text("OPTION")
+        ->group(cluster);
 }
 
 }  // namespace forage::tool

@@ -8,10 +8,17 @@
 #include "core/base/output_files.h"
 #include "core/base/print.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/options.h"
 #include "tools/forage/templates.h"
 
 namespace forage::tool {
 namespace {
+
+struct NewOptions {
+    std::string kind;    ///< system, neuron, synapse or module
+    std::string name;    ///< empty: my_system
+    bool robot = false;  ///< whether the system has a robot, and a world for it
+};
 
 /// "my_neuron" and "my-neuron" -> "MyNeuron".
 std::string class_name(const std::string& name) {
@@ -106,8 +113,6 @@ int new_project(const std::string& kind, const std::string& name) {
     return fine;
 }
 
-}  // namespace
-
 int create(const NewOptions& o) {
     if (o.kind == "system") return new_system(o.name.empty() ? "my_system" : o.name, o.robot);
     if (o.robot) return refused("--robot is for systems", "forage new system NAME --robot");
@@ -115,6 +120,22 @@ int create(const NewOptions& o) {
         return refused(fmt::format("which name has the {} type?", o.kind),
                        fmt::format("forage new {} NAME", o.kind));
     return new_project(o.kind, o.name);
+}
+
+}  // namespace
+
+void add_new(Program& program) {
+    auto& o = program.options<NewOptions>();
+    auto& command =
+        program.add("new", "Write the beginning of a system, or a small project with a type of your own",
+                    [&o] { return create(o); });
+    command.footer("Example:\n  forage new system mine --robot\n  forage new neuron adaptive");
+    add_value(command, "KIND", o.kind, " ", "system, neuron, synapse or module")
+        ->required()
+        ->check(one_of({"system", "neuron", "synapse", "module"}));
+    add_value(command, "NAME", o.name, " ",
+              "Name of the system, or of the folder and, after the kind, of the type");
+    command.add_flag("--robot", o.robot, "A system with a robot, and a world for it");
 }
 
 }  // namespace forage::tool

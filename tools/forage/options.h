@@ -1,7 +1,11 @@
-// The options of the commands, for CLI11. Each function add_... adds a command to `app`.
+// The commands of the program, and what they share for reading options with CLI11.
 #pragma once
 
+#include <functional>
+#include <map>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
@@ -37,20 +41,61 @@ void add_plugins(CLI::App& command, std::vector<std::string>& plugins);
 /// Adds the options for systems, world, settings and plugins.
 void add_input(CLI::App& command, RunInput& input);
 
-void add_run(CLI::App& app, RunOptions& o);
-void add_explain(CLI::App& app, RunOptions& o);
-void add_resume(CLI::App& app, ResumeOptions& o);
-void add_rerun(CLI::App& app, RerunOptions& o);
-/// Parses the options of `forage run`. `arguments` are the words after the program's name.
-RunOptions parse_run(std::vector<std::string> arguments);
-void add_tutorial(CLI::App& app, TutorialOptions& o);
-void add_experiment(CLI::App& app, ExperimentOptions& o);
-void add_plot(CLI::App& app, PlotOptions& o);
-void add_convert(CLI::App& app, ConvertOptions& o);
-void add_edit(CLI::App& app, EditOptions& o);
-void add_new(CLI::App& app, NewOptions& options);
-void add_studio(CLI::App& app, StudioCommand& options);
-void add_build_plugin(CLI::App& app, BuildPluginOptions& o);
-void add_trust(CLI::App& app, TrustOptions& o);
+/// Adds the command `studio`, which two programs have.
+CLI::App& declare_studio(CLI::App& app, StudioCommand& o);
+
+/// The commands of the program, and what each of them does.
+class Program {
+  public:
+    /// `arguments` are those of the program, with a null pointer at the end.
+    Program(CLI::App& app, char** arguments) : app_(app), arguments_(arguments) {}
+    CLI::App& app() { return app_; }
+    char** arguments() { return arguments_; }
+    /// Options of a command, which live as long as the program.
+    template <class Options>
+    Options& options() {
+        const auto made = std::make_shared<Options>();
+        options_.push_back(made);
+        return *made;
+    }
+    /// Adds a command; `act` returns the exit status.
+    CLI::App& add(const std::string& name, const std::string& description, std::function<int()> act) {
+        auto& command = *app_.add_subcommand(name, description);
+        on(command, std::move(act));
+        return command;
+    }
+    void on(const CLI::App& command, std::function<int()> act) { actions_[&command] = std::move(act); }
+    /// Executes the command that was parsed.
+    int execute() { return actions_.at(app_.get_subcommands().front())(); }
+
+  private:
+    CLI::App& app_;
+    char** arguments_;
+    std::vector<std::shared_ptr<void>> options_;
+    std::map<const CLI::App*, std::function<int()>> actions_;
+};
+
+// The commands, in the order of the help. Each file adds its own.
+void add_run(Program& program);
+void add_explain(Program& program);
+void add_resume(Program& program);
+void add_rerun(Program& program);
+void add_experiment(Program& program);
+void add_tutorial(Program& program);
+void add_plot(Program& program);
+void add_convert(Program& program);
+void add_edit(Program& program);
+void add_new(Program& program);
+void add_studio(Program& program);
+void add_build_plugin(Program& program);
+void add_trust(Program& program);
+void add_check(Program& program);
+void add_describe(Program& program);
+void add_world(Program& program);
+void add_view(Program& program);
+void add_types(Program& program);
+void add_schema(Program& program);
+void add_completion(Program& program);
+void add_man(Program& program);
 
 }  // namespace forage::tool

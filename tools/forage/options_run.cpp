@@ -1,4 +1,4 @@
-// The options of `forage run` and `forage resume`.
+// The options of `forage run` and `forage explain`.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -268,10 +268,7 @@ void add_run_options(CLI::App& run, RunOptions& options) {
     run.callback([&run, &o] { o.command = deciding_words(run); });
 }
 
-}  // namespace
-
-void add_run(CLI::App& app, RunOptions& options) {
-    auto& run = *app.add_subcommand("run", "Run a system, in a world if one is given");
+void declare_run(CLI::App& run, RunOptions& options) {
     run.footer(
         "Without --cycles, --seconds or --trials it runs for 60 seconds of the world.\n"
         "Example:\n"
@@ -281,11 +278,26 @@ void add_run(CLI::App& app, RunOptions& options) {
     add_run_options(run, options);
 }
 
-void add_explain(CLI::App& app, RunOptions& options) {
+}  // namespace
+
+void add_run(Program& program) {
+    auto& options = program.options<RunOptions>();
+    declare_run(program.add("run", "Run a system, in a world if one is given",
+                            [&] {
+                                for (char** word = program.arguments() + 1; *word; ++word)
+                                    options.spec.arguments.push_back(*word);
+                                return run(options);
+                            }),
+                options);
+}
+
+void add_explain(Program& program) {
+    auto& options = program.options<RunOptions>();
     options.spec.explain = true;
     options.spec.directory.clear();
     auto& explain =
-        *app.add_subcommand("explain", "Run a system, and tell what its groups did and why some were silent");
+        program.add("explain", "Run a system, and tell what its groups did and why some were silent",
+                    [&options] { return run(options); });
     explain.footer(
         "Prints the mean, least and largest activity and inputs of every group, which groups nothing "
         "drives,\n"
@@ -299,39 +311,10 @@ void add_explain(CLI::App& app, RunOptions& options) {
         explain.remove_option(explain.get_option(name));
 }
 
-void add_resume(CLI::App& app, ResumeOptions& o) {
-    auto& resume = *app.add_subcommand("resume", "Continue a stopped run from its checkpoint");
-    resume.footer(
-        "The files are then the same, byte for byte, as those of a run that was never stopped.\n"
-        "Example:\n"
-        "  forage resume forage-out");
-    add_value(resume, "FROM", o.path, "DIR|FILE", "Directory of results, or one of the checkpoints in it")
-        ->required();
-    add_value(resume, "--threads", o.threads, "N", "Largest number of threads that share a cycle [as before]")
-        ->transform(threads());
-    resume.add_flag("-q,--quiet", o.quiet, "Print errors only");
-}
-
-void add_rerun(CLI::App& app, RerunOptions& o) {
-    auto& rerun = *app.add_subcommand(
-        "rerun", "Repeat a run or an experiment, and compare the results with those of before");
-    rerun.footer(
-        "Of a bundle, inputs/ has the files, expected/ the results of before, results/ those of now.\n"
-        "'forage run --bundle paper.zip' writes a bundle.\n"
-        "Example:\n"
-        "  forage rerun paper.zip");
-    add_value(rerun, "FILE", o.path, "FILE|DIR",
-              "Bundle, or the run.json or the directory of results of a run whose files are in place")
-        ->required();
-    add_value(rerun, "-o,--output", o.directory, "DIR", "Directory for files and results [forage-rerun]")
-        ->check(named("directory"));
-    rerun.add_flag("-q,--quiet", o.quiet, "Print errors only");
-}
-
 RunOptions parse_run(std::vector<std::string> arguments) {
     CLI::App app;
     RunOptions options;
-    add_run(app, options);
+    declare_run(*app.add_subcommand("run"), options);
     arguments = current_names(std::move(arguments));
     std::ranges::reverse(arguments);  // as CLI11 takes them
     app.parse(arguments);

@@ -1,10 +1,12 @@
-#include "tools/forage/reference.h"
-
+// The manual page and the shell completion, from the same declarations as --help.
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "core/base/print.h"
 #include "core/base/separated.h"
+#include "tools/forage/commands.h"
+#include "tools/forage/options.h"
 
 namespace forage::tool {
 namespace {
@@ -165,8 +167,7 @@ std::string fish(const CLI::App& app) {
     return out;
 }
 
-}  // namespace
-
+/// The manual page of the program and all its commands, in roff, section 1.
 std::string man_page(const CLI::App& app) {
     std::string out = fmt::format(
         ".TH FORAGE 1 \"\" \"forage {}\" \"User Commands\"\n.SH NAME\nforage \\- {}\n", FORAGE_VERSION,
@@ -182,8 +183,26 @@ std::string man_page(const CLI::App& app) {
            ".SH EXIT STATUS\n0 when all went well, 1 when a run failed, 2 for bad usage or bad input.\n";
 }
 
-std::string completion(const CLI::App& app, std::string_view shell) {
-    return shell == "bash" ? bash(app) : shell == "zsh" ? zsh(app) : fish(app);
+}  // namespace
+
+void add_completion(Program& program) {
+    auto& shell = program.options<std::string>();
+    auto& command = program.add("completion", "Print a script that completes command lines", [&] {
+        const auto& app = program.app();
+        print("{}", shell == "bash" ? bash(app) : shell == "zsh" ? zsh(app) : fish(app));
+        return fine;
+    });
+    command.footer("Example:\n  forage completion bash > ~/.local/share/bash-completion/completions/forage");
+    add_value(command, "SHELL", shell, " ", "bash, zsh or fish")
+        ->required()
+        ->check(one_of({"bash", "zsh", "fish"}));
+}
+
+void add_man(Program& program) {
+    program
+        .add("man", "Print the manual page",
+             [&program] { return print("{}", man_page(program.app())), fine; })
+        .footer("Example:\n  forage man > forage.1; man ./forage.1");
 }
 
 }  // namespace forage::tool

@@ -9,15 +9,22 @@
 #include "core/base/print.h"
 #include "core/base/separated.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/options.h"
 
 namespace forage::tool {
 namespace {
+
+struct RerunOptions {
+    std::string path;                        ///< a bundle, a run.json or a directory of results
+    std::string directory = "forage-rerun";  ///< where it is unpacked and run
+    bool quiet = false;
+};
 
 namespace fs = std::filesystem;
 
 /// Runs the command of `rerun`; others than those that Forage notes in results are errors. Returns the exit
 /// status.
-int execute(const Rerun& rerun, bool quiet, const RunParser& parse, Diagnostics& diagnostics) {
+int execute(const Rerun& rerun, bool quiet, Diagnostics& diagnostics) {
     if (rerun.command.size() > 1 && rerun.command[0] == "experiment") {
         ExperimentOptions o;
         o.file = rerun.command[1], o.directory = rerun.results, o.quiet = quiet, o.fresh = true;
@@ -25,7 +32,7 @@ int execute(const Rerun& rerun, bool quiet, const RunParser& parse, Diagnostics&
             (rerun.command[i] == "--plugin" ? o.plugins : o.formats).push_back(rerun.command[i + 1]);
         if (command_of(o) == rerun.command && check_trusted(o.plugins, diagnostics)) return experiment(o);
     } else if (!rerun.command.empty() && rerun.command[0] == "run") {
-        RunOptions o = parse(rerun.command);
+        RunOptions o = parse_run(rerun.command);
         o.spec.arguments = rerun.command;
         o.spec.directory = rerun.results, o.quiet = quiet;
         if (o.spec.command == rerun.command && check_trusted(o.spec.input.plugins, diagnostics))
@@ -39,9 +46,7 @@ int execute(const Rerun& rerun, bool quiet, const RunParser& parse, Diagnostics&
     return bad_input;
 }
 
-}  // namespace
-
-int rerun(const RerunOptions& o, const RunParser& parse) {
+int rerun(const RerunOptions& o) {
     Diagnostics diagnostics;
     auto found = open_rerun(o.path, fs::absolute(o.directory).string(), diagnostics);
     print(stderr, "{}", format(diagnostics));
@@ -51,7 +56,7 @@ int rerun(const RerunOptions& o, const RunParser& parse) {
         for (const auto& note : found->notes) print(stderr, "note: {}\n", note);
     if (!found->start.empty()) fs::current_path(found->start);
     Diagnostics refused;
-    const int status = execute(*found, o.quiet, parse, refused);
+    const int status = execute(*found, o.quiet, refused);
     print(stderr, "{}", format(refused));
     if (status != fine) return status;
     const auto all = differences(*found);
@@ -66,6 +71,26 @@ int rerun(const RerunOptions& o, const RunParser& parse) {
           versions.empty() ? fmt::format("compare them: {} and {}", found->expected, found->results)
                            : versions);
     return run_failed;
+}
+
+}  // namespace
+
+void add_rerun(Program& program) {
+    auto& o = program.options<RerunOptions>();
+    auto& command =
+        program.add("rerun", "Repeat a run or an experiment, and compare the results with those of before",
+                    [&o] { return rerun(o); });
+    command.footer(
+        "Of a bundle, inputs/ has the files, expected/ the results of before, results/ those of now.\n"
+        "'forage run --bundle paper.zip' writes a bundle.\n"
+        "Example:\n"
+        "  forage rerun paper.zip");
+    add_value(command, "FILE", o.path, "FILE|DIR",
+              "Bundle, or the run.json or the directory of results of a run whose files are in place")
+        ->required();
+    add_value(command, "-o,--output", o.directory, "DIR", "Directory for files and results [forage-rerun]")
+        ->check(named("directory"));
+    command.add_flag("-q,--quiet", o.quiet, "Print errors only");
 }
 
 }  // namespace forage::tool

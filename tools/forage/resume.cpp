@@ -8,9 +8,16 @@
 #include "core/observe/row_file.h"
 #include "core/run/checkpoint_file.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/options.h"
 
 namespace forage::tool {
 namespace {
+
+struct ResumeOptions {
+    std::string path;  ///< a directory of results, or a checkpoint in it
+    int threads = 0;   ///< 0 for as many as before the stop
+    bool quiet = false;
+};
 
 namespace fs = std::filesystem;
 
@@ -76,9 +83,7 @@ std::optional<PreparedRun> restore(const Found& found, const RunSpec& spec, cons
     return prepared;
 }
 
-}  // namespace
-
-int resume(const ResumeOptions& o, const RunParser& parse) {
+int resume(const ResumeOptions& o) {
     const fs::path given = fs::absolute(o.path);
     const bool whole_directory = fs::is_directory(given);
     const std::string directory = (whole_directory ? given : given.parent_path()).string();
@@ -98,7 +103,7 @@ int resume(const ResumeOptions& o, const RunParser& parse) {
             std::error_code moved;
             fs::current_path(found->origin.working_directory,
                              moved);  // unchanged when it does not exist any more
-            RunOptions options = parse(found->origin.arguments);
+            RunOptions options = parse_run(found->origin.arguments);
             options.spec.arguments = found->origin.arguments;
             options.spec.directory = directory;
             options.quiet |= o.quiet;
@@ -128,6 +133,24 @@ int resume(const ResumeOptions& o, const RunParser& parse) {
           "--checkpoint-every\n",
           refused);
     return bad_input;
+}
+
+}  // namespace
+
+void add_resume(Program& program) {
+    auto& o = program.options<ResumeOptions>();
+    auto& command =
+        program.add("resume", "Continue a stopped run from its checkpoint", [&o] { return resume(o); });
+    command.footer(
+        "The files are then the same, byte for byte, as those of a run that was never stopped.\n"
+        "Example:\n"
+        "  forage resume forage-out");
+    add_value(command, "FROM", o.path, "DIR|FILE", "Directory of results, or one of the checkpoints in it")
+        ->required();
+    add_value(command, "--threads", o.threads, "N",
+              "Largest number of threads that share a cycle [as before]")
+        ->transform(threads());
+    command.add_flag("-q,--quiet", o.quiet, "Print errors only");
 }
 
 }  // namespace forage::tool

@@ -6,8 +6,15 @@
 
 #include "core/base/print.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/options.h"
 
 namespace forage::tool {
+namespace {
+
+struct TrustOptions {
+    std::string folder;  ///< empty: list the trusted ones
+    bool remove = false;
+};
 
 int trust(const TrustOptions& o) {
     if (o.folder.empty()) {
@@ -27,6 +34,8 @@ int trust(const TrustOptions& o) {
     return diagnostics.failed() ? bad_input : fine;
 }
 
+}  // namespace
+
 void ask_for_trust(const RunInput& input) {
     if (!isatty(STDIN_FILENO) || !isatty(STDERR_FILENO)) return;
     for (const auto& folder : untrusted_folders(input)) {
@@ -37,6 +46,17 @@ void ask_for_trust(const RunInput& input) {
         plugin::trust(folder, diagnostics);
         print(stderr, "{}", format(diagnostics));
     }
+}
+
+void add_trust(Program& program) {
+    auto& o = program.options<TrustOptions>();
+    auto& command = program.add("trust", "List the folders whose plugins are loaded, or add one",
+                                [&o] { return trust(o); });
+    command.footer(
+        "Plugins are programs. A run loads those in the folder plugins beside its system only if this folder "
+        "is trusted;\n--plugin PATH and FORAGE_PLUGIN_PATH need no trust.\nExample:\n  forage trust plugins");
+    add_value(command, "FOLDER", o.folder, " ", "Folder with plugins (.so), or with a folder plugins");
+    command.add_flag("--remove", o.remove, "Trust it no longer");
 }
 
 }  // namespace forage::tool

@@ -12,9 +12,16 @@
 #include "core/model/lookup.h"
 #include "tools/api/experiment/results.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/options.h"
 
 namespace forage::tool {
 namespace {
+
+struct TutorialOptions {
+    std::string exercise;   ///< number of the exercise, or an experiment file; empty: list all exercises
+    std::string directory;  ///< empty: forage-out/tutorial/ and the number
+    std::string system;     ///< a system of the user's own; empty: run the exercise's system
+};
 
 namespace fs = std::filesystem;
 
@@ -24,8 +31,6 @@ std::string shown(const fs::path& path) {
     const fs::path relative = fs::relative(path, none);
     return relative.empty() || *relative.begin() == ".." ? path.string() : relative.string();
 }
-
-}  // namespace
 
 int tutorial(const TutorialOptions& o) {
     Diagnostics diagnostics;
@@ -86,6 +91,27 @@ int tutorial(const TutorialOptions& o) {
     else
         for (const auto& picture : pictures) print("  {}\n", picture);
     return fine;
+}
+
+}  // namespace
+
+void add_tutorial(Program& program) {
+    auto& o = program.options<TutorialOptions>();
+    auto& command = program.add("tutorial", "List the exercises of the tutorial, or run one",
+                                [&o] { return tutorial(o); });
+    command.footer(
+        "docs/tutorial has the text, the questions and their solutions.\n"
+        "Example:\n"
+        "  forage tutorial 3.1\n"
+        "  forage tutorial 2.2 --system mine.iqr");
+    add_value(command, "EXERCISE", o.exercise, " ",
+              "Number of an exercise or of a part, or an experiment file");
+    add_value(command, "--system", o.system, "FILE",
+              "Run the exercise on this system, and say what it still lacks; the exit status is 1 if "
+              "it lacks something");
+    add_value(command, "-o,--output", o.directory, "DIR",
+              "Directory for results [forage-out/tutorial/EXERCISE]")
+        ->check(named("directory"));
 }
 
 }  // namespace forage::tool

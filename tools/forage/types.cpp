@@ -8,6 +8,7 @@
 #include "core/base/print.h"
 #include "core/xml/schema.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/options.h"
 
 namespace forage::tool {
 namespace {
@@ -137,7 +138,11 @@ std::optional<Registry> registry_with(const std::vector<std::string>& plugins) {
     return known_types(loaded);
 }
 
-}  // namespace
+struct SchemaOptions {
+    bool of_experiments = false;  ///< the schema of experiment files instead of system files
+    bool markdown = false;        ///< tables for the reference instead of a schema
+    std::vector<std::string> plugins;
+};
 
 int schema(const SchemaOptions& options) {
     if (options.of_experiments) return print("{}", xml::relax_ng_of_experiments()), fine;
@@ -147,31 +152,60 @@ int schema(const SchemaOptions& options) {
     return fine;
 }
 
-int types(const std::string& name, const std::vector<std::string>& plugins) {
-    if (name.ends_with(".iqr")) try {
-            return types_of_file(name, plugins);
+struct TypesOptions {
+    std::string name;  ///< of a type, or of a system file; empty: list the types
+    std::vector<std::string> plugins;
+};
+
+int types(const TypesOptions& o) {
+    if (o.name.ends_with(".iqr")) try {
+            return types_of_file(o.name, o.plugins);
         } catch (const InputError& e) {
             print(stderr, "{}", e.what());
             return bad_input;
         }
-    const auto found = registry_with(plugins);
+    const auto found = registry_with(o.plugins);
     if (!found) return bad_input;
     const Registry& registry = *found;
-    if (name.empty()) {
+    if (o.name.empty()) {
         list("Neurons", registry.neurons());
         list("Synapses", registry.synapses());
         list("Modules", registry.modules());
         print("'forage types NAME' describes one.\n");
         return fine;
     }
-    if (const auto* neuron = registry.neuron(name)) return describe_all(*neuron), fine;
-    if (const auto* synapse = registry.synapse(name)) return describe_all(*synapse), fine;
-    if (const auto* module = registry.module(name)) return describe_all(*module), fine;
+    if (const auto* neuron = registry.neuron(o.name)) return describe_all(*neuron), fine;
+    if (const auto* synapse = registry.synapse(o.name)) return describe_all(*synapse), fine;
+    if (const auto* module = registry.module(o.name)) return describe_all(*module), fine;
     std::vector<std::string> all = names(registry.neurons());
     for (const auto& n : names(registry.synapses())) all.push_back(n);
     for (const auto& n : names(registry.modules())) all.push_back(n);
-    print(stderr, "error: there is no type '{}'\n  hint: {}\n", name, suggest(name, all));
+    print(stderr, "error: there is no type '{}'\n  hint: {}\n", o.name, suggest(o.name, all));
     return bad_input;
+}
+
+}  // namespace
+
+void add_types(Program& program) {
+    auto& o = program.options<TypesOptions>();
+    auto& command = program.add(
+        "types",
+        "List the neuron, synapse and module types, or describe one, or those that a system declares",
+        [&o] { return types(o); });
+    command.footer("Example:\n  forage types neuronLinearThreshold\n  forage types model.iqr");
+    add_value(command, "NAME", o.name, " ", "The type to describe, or a system file (.iqr)");
+    add_plugins(command, o.plugins);
+}
+
+void add_schema(Program& program) {
+    auto& o = program.options<SchemaOptions>();
+    auto& command = program.add("schema", "Print a RELAX NG schema of system files, for editors",
+                                [&o] { return schema(o); });
+    command.footer("Example:\n  forage schema > iqr.rng");
+    command.add_flag("--experiment", o.of_experiments, "The schema of experiment files instead");
+    command.add_flag("--markdown", o.markdown,
+                     "The elements of system files and the types, as tables in Markdown, instead");
+    add_plugins(command, o.plugins);
 }
 
 }  // namespace forage::tool

@@ -4,8 +4,10 @@
 #include "core/base/print.h"
 #include "tools/api/experiment/results.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/options.h"
 
 namespace forage::tool {
+namespace {
 
 int view(const std::string& directory) {
     if (!std::filesystem::is_directory(directory)) {
@@ -19,6 +21,17 @@ int view(const std::string& directory) {
     print(stderr, "{}", format(diagnostics));
     print("{}\nOpen it with a browser: xdg-open '{}'\n", file, file);
     return diagnostics.failed() ? bad_input : fine;
+}
+
+}  // namespace
+
+void add_view(Program& program) {
+    auto& directory = program.options<std::string>();
+    directory = "forage-out";
+    auto& command = program.add("view", "Write a page, index.html, with the pictures and tables of results",
+                                [&directory] { return view(directory); });
+    command.footer("Example:\n  forage view forage-out");
+    add_value(command, "DIR", directory, " ", "Directory of results [forage-out]");
 }
 
 }  // namespace forage::tool

@@ -8,10 +8,19 @@
 #include "core/base/output_files.h"
 #include "core/base/print.h"
 #include "tools/forage/commands.h"
+#include "tools/forage/options.h"
 #include "tools/plot/robot_plot.h"
 #include "tools/plot/world_map.h"
 
 namespace forage::tool {
+namespace {
+
+struct WorldCommand {
+    std::string file;     ///< .world
+    std::string picture;  ///< .png, .svg or .pdf; empty: the name of the world or robot with .png
+    bool game = false;
+    std::string robot;  ///< prints and draws the data sheet of this robot instead of the world
+};
 
 int world(const WorldCommand& o) {
     Diagnostics diagnostics;
@@ -57,6 +66,26 @@ int world(const WorldCommand& o) {
     }
     print("  {:<11} {}\n", "picture", picture);
     return fine;
+}
+
+}  // namespace
+
+void add_world(Program& program) {
+    auto& o = program.options<WorldCommand>();
+    auto& command = program.add(
+        "world", "Check a world, list its contents and draw it from above; or the data sheet of a robot",
+        [&o] { return world(o); });
+    command.footer(
+        "Example:\n"
+        "  forage world systems/worlds/basic_arena.world -o forage-out/basic_arena.png\n"
+        "  forage world systems/worlds/basic_arena.world --robot Bug -o forage-out/bug.png");
+    add_value(command, "FILE", o.file, " ", "World file (.world)")->required();
+    add_value(command, "-o,--output", o.picture, "PICTURE",
+              "Picture (.png, .svg or .pdf) [FILE's or ROBOT's name with .png]")
+        ->check(named("file"));
+    add_value(command, "--robot", o.robot, "ROBOT",
+              "Print and draw the data sheet of this robot: what every cell of its motors and sensors means");
+    command.add_flag("--game", o.game, "With the robotics challenge's resources");
 }
 
 }  // namespace forage::tool

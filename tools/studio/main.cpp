@@ -95,7 +95,7 @@ int main(int argc, char** argv) {
     CLI::App app("Runs iqr brain models headless, in a closed loop with a simulated robot.", "forage");
     app.require_subcommand(1);
     StudioCommand command;
-    add_studio(app, command);
+    declare_studio(app, command);
     try {
         auto words = current_names({argv + 1, argv + argc});
         std::reverse(words.begin(), words.end());  // as CLI11 takes them
