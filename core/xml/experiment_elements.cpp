@@ -168,7 +168,7 @@ std::vector<ElementRow> experiment_rows() {
               text("to", "'Process/Group' or some of its cells: the number of synapses to them")},
              {&Requirement::from, text("from", "where the synapses come from; without it, from anywhere")},
              {&Requirement::kind,
-              choice("kind", "of the synapses", {"excitatory", "inhibitory", "modulatory"})},
+              choice("kind", "of the synapses", {input_kind_names.begin(), input_kind_names.end()})},
              {&Requirement::at_least,
               number("at-least", "the lowest number that is accepted; for synapses 1 if no bound is given")},
              {&Requirement::at_most, number("at-most", "the highest number that is accepted")}},
