@@ -1,4 +1,4 @@
-// Subscriptions: panels name a source, and receive its blocks. Equal subscriptions share a stream.
+// Subscriptions: panels name a source, and receive its blocks. Those to the newest values of a source share a stream.
 import type { Connection } from './connection';
 import type { Block, Frame } from './protocol/frame';
 
@@ -11,6 +11,7 @@ interface Stream {
   delivery: Delivery;
   every: number;
   listeners: Set<Listener>;
+  requests: number; // how often it was requested: only the last reply counts
   refused?: boolean;
   last?: { block: Block; frame: Frame };
 }
@@ -18,7 +19,7 @@ interface Stream {
 type Request = Connection['request'];
 
 export class Streams {
-  private byKey = new Map<string, Stream>();
+  private all = new Set<Stream>();
   private byId = new Map<number, Stream>();
 
   constructor(private readonly request: Request, private readonly failed: (source: string, error: Error) => void) {}
@@ -26,11 +27,10 @@ export class Streams {
   /** Calls `listener` for each new block. Returns the function that ends the subscription. */
   subscribe(source: string, delivery: Delivery, listener: Listener, every = 1): () => void {
     // Every listener of rows over time gets a stream of its own: it begins with what is kept since then.
-    const key = delivery === 'latest' ? source : `${source} ${Math.random()}`;
-    let stream = this.byKey.get(key);
+    let stream = delivery === 'latest' ? [...this.all].find((s) => s.delivery === delivery && s.source === source) : undefined;
     if (!stream) {
-      stream = { id: null, source, delivery, every, listeners: new Set() };
-      this.byKey.set(key, stream);
+      stream = { id: null, source, delivery, every, listeners: new Set(), requests: 0 };
+      this.all.add(stream);
       this.send(stream);
     } else if (stream.last) {
       listener(stream.last.block, stream.last.frame);
@@ -39,8 +39,7 @@ export class Streams {
     const subscribed = stream;
     return () => {
       subscribed.listeners.delete(listener);
-      if (subscribed.listeners.size > 0 || this.byKey.get(key) !== subscribed) return;
-      this.byKey.delete(key);
+      if (subscribed.listeners.size > 0 || !this.all.delete(subscribed)) return;
       this.end(subscribed);
     };
   }
@@ -50,7 +49,7 @@ export class Streams {
     // A server that opened another system still has the streams whose sources are in it, too.
     for (const id of this.byId.keys()) this.request('unsubscribe', { stream: id }).catch(() => {});
     this.byId.clear();
-    for (const stream of this.byKey.values()) {
+    for (const stream of this.all) {
       delete stream.last;
       // Sources that the other system does not have are not reported.
       this.send(stream, () => {});
@@ -59,7 +58,7 @@ export class Streams {
 
   /** Retries the rejected subscriptions: an edit may have added their sources. The other streams continue. */
   retry(): void {
-    for (const stream of this.byKey.values()) if (stream.refused) this.send(stream, () => {});
+    for (const stream of this.all) if (stream.refused) this.send(stream, () => {});
   }
 
   /** Hands out the blocks of several frames: of newest-value streams only the last ones. */
@@ -80,13 +79,16 @@ export class Streams {
     const { source, delivery, every } = stream;
     stream.id = null;
     stream.refused = false;
+    const request = ++stream.requests;
     this.request('subscribe', { source, class: delivery, every }).then(
       (info) => {
+        if (request !== stream.requests) return void this.request('unsubscribe', { stream: info.stream }).catch(() => {});
         stream.id = info.stream;
         this.byId.set(stream.id, stream);
         if (stream.listeners.size === 0) this.end(stream);
       },
       (error: Error) => {
+        if (request !== stream.requests) return;
         stream.refused = true;
         // Another system was opened meanwhile, and the panel has gone with the old one.
         if (stream.listeners.size > 0) failed(source, error);

@@ -54,6 +54,18 @@ describe('Streams', () => {
     expect(append.mock.calls.map((c) => c[0].values[0])).toEqual([3, 4]);
   });
 
+  it('stays one subscription when it is renewed before the server has replied', async () => {
+    const { sent, streams } = server();
+    const rows = vi.fn();
+    streams.subscribe('A', 'append', rows);
+    streams.resume();
+    await settle();
+    expect(sent.map((s) => s[0])).toEqual(['subscribe', 'subscribe', 'unsubscribe']);
+    expect(sent[2]![1]).toEqual({ stream: 1 });
+    streams.deliver([frame(1, 1, 1), frame(2, 2, 2)]);
+    expect(rows.mock.calls.map((c) => c[0].values[0])).toEqual([2]);
+  });
+
   it('subscribes again after the connection was lost, under the new numbers', async () => {
     const { sent, streams } = server();
     const a = vi.fn();
