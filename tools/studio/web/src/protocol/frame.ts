@@ -33,20 +33,7 @@ export interface Frame {
 /** A frame that cannot be read. The message says why. */
 export class FrameError extends Error {}
 
-function view(buffer: ArrayBuffer, type: number, offset: number, bytes: number): Numbers {
-  switch (type) {
-    case 0:
-      return new Float32Array(buffer, offset, bytes / 4);
-    case 1:
-      return new Float64Array(buffer, offset, bytes / 8);
-    case 2:
-      return new Uint8Array(buffer, offset, bytes);
-    default:
-      throw new FrameError(`a block has the unknown type ${type}`);
-  }
-}
-
-const sizes = [4, 8, 1];
+const types = [Float32Array, Float64Array, Uint8Array];
 
 /** Reads a frame. Throws FrameError when its sizes do not fit together. */
 export function decodeFrame(buffer: ArrayBuffer): Frame {
@@ -62,14 +49,14 @@ export function decodeFrame(buffer: ArrayBuffer): Frame {
     const at = headerBytes + i * entryBytes;
     const rows = data.getUint32(at + 4, true);
     const columns = data.getUint32(at + 8, true);
-    const type = data.getUint8(at + 12);
+    const type = types[data.getUint8(at + 12)];
     const flags = data.getUint8(at + 13);
     const offset = data.getUint32(at + 24, true);
     const bytes = data.getUint32(at + 28, true);
     if (offset % 8 !== 0) throw new FrameError('a block does not begin at a multiple of 8 bytes');
     if (offset + bytes > buffer.byteLength) throw new FrameError('a block ends after the frame');
-    if (type >= sizes.length) throw new FrameError(`a block has the unknown type ${type}`);
-    if (rows * columns * sizes[type]! !== bytes) throw new FrameError('the size of a block does not fit its rows and columns');
+    if (!type) throw new FrameError(`a block has the unknown type ${data.getUint8(at + 12)}`);
+    if (rows * columns * type.BYTES_PER_ELEMENT !== bytes) throw new FrameError('the size of a block does not fit its rows and columns');
     blocks.push({
       stream: data.getUint32(at, true),
       rows,
@@ -78,7 +65,7 @@ export function decodeFrame(buffer: ArrayBuffer): Frame {
       minMax: (flags & 2) !== 0,
       low: data.getFloat32(at + 16, true),
       high: data.getFloat32(at + 20, true),
-      values: view(buffer, type, offset, bytes),
+      values: new type(buffer, offset, rows * columns),
     });
   }
   return {
