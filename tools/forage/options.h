@@ -22,8 +22,8 @@ CLI::Validator count();     ///< a whole number, at least 1
 CLI::Validator seed();      ///< a whole number, at least 0
 CLI::Validator threads();   ///< a whole number from 1 to 1024
 CLI::Validator one_of(std::vector<std::string> names);
-/// Replaces the option names of version 0.1 in a command line by their current names. The old names are
-/// accepted for one version.
+/// Replaces the option names of version 0.1 in a command line by their current names. The old ones are
+/// accepted until version 2.
 std::vector<std::string> current_names(std::vector<std::string> words);
 /// Adds an option whose value the help calls `value`.
 template <class T>
