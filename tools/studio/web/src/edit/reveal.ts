@@ -21,15 +21,13 @@ export function reveal(id: string): void {
   selection.process = pageWith(id, selection.process);
   selection.select(id);
   if (id !== selection.process) selection.wanted = id; // a page does not show its own process
-  if (!frame.narrow) return;
-  frame.tree = false;
-  frame.inspector = true;
+  if (frame.narrow) frame.showForm();
 }
 
-/** Opens the form of a new connection, which says which cells it joins. On a small window the form would cover the diagram: a message offers it. */
+/** Opens the form of a new connection, which says which cells it joins. Where the form would cover the diagram, a message offers it. */
 export function revealConnection(id: string): void {
   const warning = editing.of(id)[0];
-  if (frame.narrow) return actions.notify('info', `The groups are connected${warning ? `: ${warning.message}` : ''}.`, { action: { label: 'Choose cells', act: () => reveal(id) } });
-  frame.inspector = true;
+  if (frame.hides) return actions.notify('info', `The groups are connected${warning ? `: ${warning.message}` : ''}.`, { action: { label: 'Choose cells', act: () => reveal(id) } });
+  frame.showForm();
   selection.select(id);
 }

@@ -1,6 +1,8 @@
 // How much room the window has, and which of the drawers beside the panels are open. Both follow its width.
 const narrow = matchMedia('(max-width: 1100px)');
 const small = matchMedia('(max-width: 720px)');
+/** So narrow that an open inspector leaves no useful room beside it. */
+const tight = matchMedia('(max-width: 560px)');
 
 export type Room = 'wide' | 'narrow' | 'small';
 const roomNow = (): Room => (small.matches ? 'small' : narrow.matches ? 'narrow' : 'wide');
@@ -32,6 +34,21 @@ class Frame {
   /** Whether one of them does. */
   get over(): boolean {
     return narrow.matches && (this.tree || this.inspector);
+  }
+  /** Whether the inspector lies over the panels and hides nearly all of them. */
+  get hides(): boolean {
+    return tight.matches;
+  }
+  /** How many of the last pixels of a panel of this width the inspector covers, if the panel may as well be beside it. */
+  covered(right: number, width: number): number {
+    if (!this.inspector || !narrow.matches || tight.matches) return 0;
+    const pixels = right - (innerWidth - parseFloat(getComputedStyle(document.documentElement).getPropertyValue('--inspector')));
+    return pixels > 0 && width - pixels >= 200 ? pixels : 0;
+  }
+  /** Shows the form of what is selected in place of the tree. */
+  showForm(): void {
+    if (narrow.matches) this.tree = false;
+    this.inspector = true;
   }
   closeDrawers(): void {
     this.tree = this.inspector = false;

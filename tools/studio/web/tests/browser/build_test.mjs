@@ -303,13 +303,41 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await connect('Target sensor');
   await inspector.getByText("leads to 'Target sensor', to which the module of process 'Bug' writes: its cells get the sum of both").waitFor();
   await page.keyboard.press('Control+z');
-  await page.setViewportSize({ width: 1024, height: 700 });
-  await page.getByRole('tab', { name: 'Diagram' }).click();
-  await connect();
-  await page.getByRole('button', { name: 'Choose cells' }).click();
-  await field('Cells').waitFor();
-  await page.getByRole('button', { name: 'Close the inspector' }).click();
-  await page.getByRole('button', { name: 'Undo', exact: true }).click();
+
+  for (const [width, height] of [[1024, 700], [700, 600]]) {
+    step(`at ${width} pixels, what is new or double-clicked shows its form at once, and stays in sight beside it`);
+    const inSight = (what) =>
+      until(page, `${what} beside its form`, () => {
+        const form = document.querySelector('aside.right'), seen = [...document.querySelectorAll('.svelte-flow__node.selected, g[data-connection].chosen')].map((e) => e.getBoundingClientRect());
+        return form && seen.length > 0 && seen.every((r) => r.left >= 0 && r.right <= form.getBoundingClientRect().left);
+      });
+    const close = async () => {
+      await page.getByRole('button', { name: 'Close the inspector' }).click();
+      await until(page, 'the width of the window for the diagram', () => [...document.querySelectorAll('[aria-label="Canvas"]')].some((e) => e.getBoundingClientRect().right > innerWidth - 20));
+    };
+    await page.setViewportSize({ width, height });
+    await page.getByRole('tab', { name: 'Diagram' }).click();
+    await connect();
+    await field('Cells').waitFor();
+    await inSight('the new connection');
+    await close();
+    const [x, y] = await diagram.locator('g[data-connection] .thin').evaluate((path) => {
+      const { x, y } = path.getPointAtLength(path.getTotalLength() / 2).matrixTransform(path.getScreenCTM());
+      return [x, y];
+    });
+    await page.mouse.dblclick(x, y);
+    await until(page, 'the chooser of cells with the focus, and no text that is selected', () => document.activeElement.matches('[data-field="cells"] select') && String(getSelection()) === '');
+    await inSight('the connection');
+    await close();
+    await page.getByRole('button', { name: 'Undo', exact: true }).click();
+    await page.getByRole('toolbar', { name: 'Editing' }).getByRole('button', { name: 'Group' }).press('Enter');
+    await field('Neuron').waitFor();
+    await inSight('the new group');
+    await until(page, 'its name is still written in its box', () => document.activeElement.matches('.svelte-flow__node input'));
+    await page.keyboard.press('Escape');
+    await close();
+    await page.getByRole('button', { name: 'Undo', exact: true }).click();
+  }
   await page.setViewportSize({ width: 1400, height: 900 });
   await box(exact('Motor')).press('Delete');
   await page.getByRole('button', { name: '1 problem' }).click();
