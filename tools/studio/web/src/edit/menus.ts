@@ -26,8 +26,7 @@ export async function removeItems(ids: string[]): Promise<void> {
 export function properties(id: string, field: string | null = null): void {
   selection.select(id);
   frame.openInspector();
-  tools.formToFocus = id;
-  tools.fieldToFocus = field;
+  tools.wanted = { id, field, focus: true };
 }
 
 /** Begins to write the name of an item: in its box, or in the inspector if no box shows it. */

@@ -4,6 +4,7 @@ import { actions } from '../stores/actions.svelte';
 import { frame } from '../stores/frame.svelte';
 import { model } from '../stores/model.svelte';
 import { selection } from '../stores/selection.svelte';
+import { tools } from './tool.svelte';
 
 /** The page on which an item is seen: the process, or null for that of the system. Of the two or three pages of a connection between processes it is the present one, if it is among them. */
 export function pageWith(id: string, present: string | null): string | null {
@@ -24,10 +25,11 @@ export function reveal(id: string): void {
   if (frame.narrow) frame.showForm();
 }
 
-/** Opens the form of a new connection, which says which cells it joins. Where the form would cover the diagram, a message offers it. */
+/** Opens the form of a new connection at the cells that it joins; the keys stay with the diagram. Where the form would cover the diagram, a message offers it. */
 export function revealConnection(id: string): void {
   const warning = editing.of(id)[0];
   if (frame.hides) return actions.notify('info', `The groups are connected${warning ? `: ${warning.message}` : ''}.`, { action: { label: 'Choose cells', act: () => reveal(id) } });
   frame.showForm();
   selection.select(id);
+  tools.wanted = { id, field: 'cells', focus: false };
 }

@@ -28,10 +28,8 @@ class Tools {
   /** Groups between which the dialog connects; null when it is closed. */
   dialog = $state.raw<{ source: string | null; target?: string; kind: ConnectionKind } | null>(null);
 
-  /** The item whose form gets the focus when it is shown. */
-  formToFocus = $state<string | null>(null);
-  /** The port or parameter in it that gets the focus; null for the first field. */
-  fieldToFocus: string | null = null;
+  /** The item whose form shows a field, when it is there: a port, a parameter, the cells, or by default the first one. It gets the focus, too, unless that stays where it is. */
+  wanted = $state.raw<{ id: string; field: string | null; focus: boolean } | null>(null);
 
   connecting = $derived(this.current !== 'select' && this.current !== 'add' && this.current !== 'comment');
 
