@@ -8,5 +8,5 @@ const tutorialFolder = resolve(process.env.FORAGE_TUTORIAL ?? '../../../docs/tut
 export default defineConfig({
   plugins: [svelte(), tutorial(tutorialFolder)],
   server: { fs: { allow: ['.', tutorialFolder] } },
-  test: { include: ['tests/unit/**/*.test.ts'], environment: 'node' },
+  test: { css: true, include: ['tests/unit/**/*.test.ts'], environment: 'node' },
 });
