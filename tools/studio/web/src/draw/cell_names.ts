@@ -9,6 +9,15 @@ export function cellName(names: CellNames | null, x: number, y: number): string 
   return [part(names.rows, names.row, y), part(names.columns, names.column, x)].filter(Boolean).join(', ');
 }
 
+/** Which way round the cells of a group go, in words: the first, the middle and the last of their names. "Cell 1: left 90°, 16: left 3°, 17: right 3°, 32: right 90°". */
+export function directionWords({ names, width, height }: { names: CellNames | null; width: number; height: number }): string[] {
+  return ([[height === 1 ? 'Cell' : 'Column', names?.columns], [width === 1 ? 'Cell' : 'Row', names?.rows]] as const).flatMap(([what, all]) => {
+    if (!all?.length) return [];
+    const last = all.length - 1, some = all.length <= 4 ? all.keys() : [0, Math.floor(last / 2), Math.ceil(last / 2), last];
+    return `${what} ${[...new Set(some)].map((i) => `${i + 1}: ${all[i]}`).join(', ')}`;
+  });
+}
+
 /** A name on an axis, from `start` on, in pixels. */
 interface AxisLabel {
   text: string;

@@ -1,5 +1,5 @@
 import { describe, expect, it, vi } from 'vitest';
-import { axisLabels, cellName } from '../../src/draw/cell_names';
+import { axisLabels, cellName, directionWords } from '../../src/draw/cell_names';
 import { Lattice } from '../../src/draw/lattice';
 import { momentText, spanText } from '../../src/draw/moment';
 import type { Group, SystemMessage } from '../../src/protocol/messages';
@@ -19,6 +19,13 @@ describe('names of cells', () => {
     expect(cellName(null, 1, 1)).toBe('');
     expect(Lattice.of({ width: 2, height: 1, places: null, names: needs }).title(1)).toBe('hydration (2, 1)');
     expect(Lattice.of({ width: 2, height: 1, places: null, names: null }).title(1)).toBe('(2, 1)');
+  });
+  it('say which way round the cells go: the first, the middle and the last', () => {
+    const rays = ['left 90°', 'left 45°', 'left 9°', 'right 9°', 'right 45°', 'right 90°'];
+    expect(directionWords({ names: { ...needs, columns: rays }, width: 6, height: 1 })).toEqual(['Cell 1: left 90°, 3: left 9°, 4: right 9°, 6: right 90°']);
+    expect(directionWords({ names: { ...needs, rows: ['ahead', 'on the spot', 'back'] }, width: 2, height: 3 })).toEqual(['Column 1: temperature, 2: hydration', 'Row 1: ahead, 2: on the spot, 3: back']);
+    expect(directionWords({ names: memory, width: 5, height: 5 })).toEqual([]);
+    expect(directionWords({ names: null, width: 5, height: 1 })).toEqual([]);
   });
   it('stand on an axis as far as they fit: the ends and the middle first, once for neighbours of the same name', () => {
     const size = (text: string) => 10 * text.length;
