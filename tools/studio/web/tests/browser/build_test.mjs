@@ -257,7 +257,13 @@ export default async function({ forage, folder, start, open, faults, step }) {
     await page.mouse.up();
     await inspector.getByRole('list', { name: 'Tuples' }).getByText(`${ray},1 → ${x},${y}`).waitFor();
   }
-  await inspector.getByText('2 of 32 cells of Bug/Sensor are used.').waitFor();
+  const said = inspector.getByText('2 of 32 cells of Bug/Sensor are used.');
+  assert.ok(await said.evaluate((e) => e.matches('.muted:not(.likely)')), 'they were chosen: it is no warning');
+  await until(page, 'the button that adds a tuple, below the cells that are scrolled', () => {
+    const scroll = document.querySelector('aside.right .scroll'), cells = document.querySelector('[data-grid="Source"]'), add = [...scroll.querySelectorAll('button')].find((b) => b.textContent === 'Add tuple');
+    cells.scrollIntoView({ block: 'end' });
+    return add.getBoundingClientRect().bottom <= scroll.getBoundingClientRect().bottom;
+  });
   await picture(page, 'chooser');
   await page.getByRole('button', { name: 'Run', exact: true }).click();
   await until(page, 'it runs', () => Number(document.querySelector('[aria-label="Moment of the run"]')?.value) > 10);
@@ -320,6 +326,8 @@ export default async function({ forage, folder, start, open, faults, step }) {
     await connect();
     await field('Cells').waitFor();
     await inSight('the new connection');
+    await until(page, 'the chooser at the top of the form', () => document.querySelector('[data-field="cells"]').getBoundingClientRect().top < document.querySelector('aside.right .scroll').getBoundingClientRect().top + 60);
+    await inspector.getByText('Cell 1: left 172°, 16: left 6°, 17: right 6°, 32: right 172°').waitFor();
     await close();
     const [x, y] = await diagram.locator('g[data-connection] .thin').evaluate((path) => {
       const { x, y } = path.getPointAtLength(path.getTotalLength() / 2).matrixTransform(path.getScreenCTM());

@@ -4,7 +4,7 @@ import { fromModule, pageSvg, toModule, wrapped } from '../../src/panels/page_sv
 import { moduleLinks } from '../../src/panels/module_links';
 import { connectable } from '../../src/edit/ends';
 import { aligned, apart, distributed, freshName } from '../../src/edit/places';
-import { CellPlan, holds, parseTuples, spanned, tupleText } from '../../src/edit/forms/cells';
+import { CellPlan, choosesCells, holds, parseTuples, reform, spanned, tupleText } from '../../src/edit/forms/cells';
 import { anchor, middleOfLongest, nearestPart, roundedPath, type Point } from '../../src/panels/line';
 import type { Connection, ConnectionLine, Group, Process, SystemMessage } from '../../src/protocol/messages';
 
@@ -263,6 +263,12 @@ describe('cells and names', () => {
     expect(parseTuples('1,1|2,1:3,1 4,1:5,1')).toEqual([{ source: [[1, 1], [2, 1]], target: [[3, 1]] }, { source: [[4, 1]], target: [[5, 1]] }]);
     expect(() => parseTuples('1,1')).toThrow(/1,1/);
     expect(tupleText({ source: [[1, 2]], target: [[3, 4]] })).toBe('1,2 → 3,4');
+  });
+  it('are chosen by tuples and regions: that others are not used is no mistake then', () => {
+    const all = reform(null, 'mapped');
+    expect([choosesCells(all, 'source'), choosesCells(reform(all, 'tuples'), 'source')]).toEqual([false, true]);
+    const some = { ...all, source: spanned([1, 1], [2, 1]) } as typeof all;
+    expect([choosesCells(some, 'source'), choosesCells(some, 'target')]).toEqual([true, false]);
   });
   it('finds a name that is free', () => expect(freshName('Group', ['Group 1', 'Group 3'])).toBe('Group 2'));
 });

@@ -67,6 +67,9 @@ export function holds(region: Region, [x, y]: Place): boolean {
   return x >= region.x && x < region.x + region.width && y >= region.y && y < region.y + region.height;
 }
 
+/** Whether a pattern says which cells of a side it uses: that others are not used is no mistake then. */
+export const choosesCells = (pattern: Pattern, side: 'source' | 'target'): boolean => !('source' in pattern) || pattern[side].form !== 'all';
+
 /** The region between two corners. */
 export function spanned([ax, ay]: Place, [bx, by]: Place): Region {
   return { form: 'region', x: Math.min(ax, bx), y: Math.min(ay, by), width: Math.abs(ax - bx) + 1, height: Math.abs(ay - by) + 1 };
