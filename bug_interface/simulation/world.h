@@ -114,6 +114,7 @@ class World final : public Environment {
 
     // ---- for observers ----
     Pose2 pose(std::size_t bug) const override { return robots_[bug].pose; }
+    bool driven(std::size_t bug) const override { return !robots_[bug].claim.expired(); }
     /// The point of the floor (z = 0) in the centre of the camera's image, in world coordinates, m. The
     /// position of the robot when it has no camera that looks down.
     Eigen::Vector2d looks_at(std::size_t bug) const;

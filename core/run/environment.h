@@ -36,6 +36,8 @@ class Environment {
     virtual std::vector<std::string> robot_names() const { return {}; }
     /// The current pose of a robot.
     virtual Pose2 pose(std::size_t /*robot*/) const { return {}; }
+    /// Whether a module that has started drives the robot.
+    virtual bool driven(std::size_t /*robot*/) const { return true; }
 
     /// Whether the world resets this robot to a start pose, which ends a trial.
     virtual bool has_trials(std::size_t /*robot*/) const { return false; }

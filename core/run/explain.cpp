@@ -326,6 +326,18 @@ std::vector<UndrivenInput> undriven_inputs(const model::System& system, const La
     return out;
 }
 
+std::vector<UndrivenRobot> undriven_robots(const Run& run) {
+    std::vector<UndrivenRobot> out;
+    const auto* world = run.environment();
+    if (!world) return out;
+    const auto names = world->robot_names();
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (world->driven(i)) return {};
+        out.push_back({names[i], fmt::format("no module drives the robot {}", names[i])});
+    }
+    return out;
+}
+
 std::string activity_table(const Layout& layout, const observe::GroupStatistics& statistics) {
     std::size_t widest = 5;
     for (const auto& g : layout.groups) widest = std::max(widest, g.path.size());
@@ -350,6 +362,7 @@ std::string activity_table(const Layout& layout, const observe::GroupStatistics&
 std::vector<std::string> explanation(const PreparedRun& prepared) {
     const Run& run = prepared.run;
     auto out = prepared.commands();
+    for (auto& undriven : undriven_robots(run)) out.push_back(std::move(undriven.text));
     std::set<int> manipulated;
     for (const auto& o : run.observers())
         if (const auto* m = dynamic_cast<const observe::Manipulation*>(o.get()))

@@ -24,6 +24,13 @@ struct UndrivenInput {
 std::vector<UndrivenInput> undriven_inputs(const model::System& system, const engine::Layout& layout,
                                            const std::set<int>& manipulated = {});
 
+/// A robot that no module drives, and a sentence that says so.
+struct UndrivenRobot {
+    std::string robot, text;
+};
+/// The robots of a run that has started, if none of them is driven: one of several may be meant to stand.
+std::vector<UndrivenRobot> undriven_robots(const Run& run);
+
 /// Returns a table of the mean, least and largest value and the share of active cells of every group's
 /// activity and inputs over a run, for a terminal.
 std::string activity_table(const engine::Layout& layout, const observe::GroupStatistics& statistics);

@@ -102,6 +102,11 @@ class Explain(Cli):
         said = self.forage("explain", "small.iqr", "--world", WORLD, "--cycles", 20).stdout
         return [line for line in said.splitlines() if line.startswith("- ")]
 
+    def test_a_robot_that_no_module_drives_is_named(self):
+        (self.here / "small.iqr").write_text(system([group("A", NEURON.format(0))], []))
+        said = self.forage("explain", "small.iqr", "--world", WORLD, "--cycles", 20).stdout
+        self.assertIn("- no module drives the robot Bug\n", said)
+
     def test_all_ways_back_from_a_motor_are_followed(self):
         reason = "neuronRandomSpike reads no input, and its parameters keep it silent"
         self.assertEqual(

@@ -31,11 +31,13 @@ json start_run(Session& s, const Request&) {
     s.live.pace.start();
     std::set<int> touched;
     for (const auto& [group, manipulation] : s.live.touches->groups()) touched.insert(group);
-    json undriven = json::array();
+    json undriven = json::array(), robots = json::array();
     const auto& layout = s.run().layout();
     for (const auto& [group, text] : undriven_inputs(s.run().system(), layout, touched))
         undriven.push_back({{"group", layout.groups[static_cast<std::size_t>(group)].id}, {"text", text}});
-    return {{"undriven", std::move(undriven)}};
+    for (const auto& [robot, text] : undriven_robots(s.run()))
+        robots.push_back({{"robot", robot}, {"text", text}});
+    return {{"undriven", std::move(undriven)}, {"undriven_robots", std::move(robots)}};
 }
 
 json run_until(Session& s, const Request& r) {
@@ -230,10 +232,12 @@ Equivalent begun_again(const Session& s, Equivalent (*form)(const Opened&), cons
 }
 
 std::vector<Command> run_commands() {
-    const std::string undriven = "{ undriven: { group: string; text: string }[] }";
+    const std::string undriven =
+        "{ undriven: { group: string; text: string }[]; undriven_robots: { robot: string; text: string }[] }";
     return {
         {.name = "run",
-         .doc = "Starts the run. Returns the groups that modules read although nothing drives them.",
+         .doc = "Starts the run. Returns the groups that modules read although nothing drives them, and the "
+                "robots, if nothing drives any of them.",
          .result = undriven,
          .apply = start_run},
         {.name = "run_until",

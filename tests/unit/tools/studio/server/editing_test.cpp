@@ -677,7 +677,14 @@ TEST_CASE("a robot is one step, and a port gets a group of the size that it need
     e.result({{"command", "new"},
               {"name", "Mine"},
               {"world", FORAGE_SOURCE_DIR "/systems/worlds/basic_arena.world"}});
+    const auto undriven = [&] {
+        const json started = e.result({{"command", "run"}});
+        e.result({{"command", "pause"}});
+        return started["undriven_robots"];
+    };
+    CHECK(undriven() == json{{{"robot", "Bug"}, {"text", "no module drives the robot Bug"}}});
     const auto robot = e.edit({{{"do", "add_robot"}, {"name", "Bug"}}})[0];
+    CHECK(undriven() == json::array());
     CHECK(e.last["document"]["problems"] == json::array());
     const auto groups = e.last["system"]["processes"][0]["groups"];
     REQUIRE(groups.size() == 3);

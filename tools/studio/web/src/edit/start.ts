@@ -6,7 +6,8 @@ import { run } from '../stores/run.svelte';
 import { command } from '../studio';
 import type { Commands } from '../protocol/commands';
 import { editing } from './document.svelte';
-import { addRobot, fixesOf, freeRobots } from './fixes';
+import { addRobot, fixesOf } from './fixes';
+import { properties } from './menus';
 import { formProblem } from './problem_text';
 import { tools } from './tool.svelte';
 
@@ -14,13 +15,14 @@ type Started = Commands['run']['result'];
 const sentence = (text: string) => `${text[0]!.toUpperCase()}${text.slice(1)}.`;
 
 /** Says what keeps a robot at rest. */
-export function reportStart({ undriven }: Started): void {
+export function reportStart({ undriven, undriven_robots: [robot] }: Started): void {
   const say = (text: string, label: string, act: () => unknown) => actions.notify('info', text, { cause: 'run', action: { label, act } });
-  const problem = editing.problems.find((p) => p.severity !== 'warning'), robot = freeRobots()[0];
+  const problem = editing.problems.find((p) => p.severity !== 'warning'), off = model.processes.find((p) => p.module && !p.enabled);
   if (editing.message?.running_is_current === false && problem) {
     const fix = fixesOf(problem)[0] ?? { label: 'Show the problems', act: () => dock.plot({ kind: 'problems' }) };
     say(`This runs the last valid version of the system: ${formProblem(problem).message}.`, fix.label, fix.act);
-  } else if (robot && !model.processes.some((p) => p.module)) say(`No module drives the robot ${robot}.`, `Add the robot ${robot}`, () => addRobot(robot));
+  } else if (robot && off) say(sentence(robot.text), `Enable the module of ${off.name}…`, () => properties(off.id, 'enabled'));
+  else if (robot) say(sentence(robot.text), `Add the robot ${robot.robot}`, () => addRobot(robot.robot));
   else if (undriven[0]) say(sentence(undriven[0].text), 'Connect a group to it', () => (tools.dialog = { source: null, target: undriven[0]!.group, kind: 'excitatory' }));
 }
 

@@ -2,15 +2,15 @@
 import type { DocumentMessage, Driven, EditItem, FilesResult, ItemParameters, LayoutContent, PanelRow, PartSummary, PreviewResult, Problem, RecentFile, ShippedSystem, SynapseTable, Trial, TypesResult, Vocabulary, WorldDocument, WorldKind } from './messages';
 
 export interface Commands {
-  /** Starts the run. Returns the groups that modules read although nothing drives them. */
+  /** Starts the run. Returns the groups that modules read although nothing drives them, and the robots, if nothing drives any of them. */
   run: {
     arguments: {};
-    result: { undriven: { group: string; text: string }[] };
+    result: { undriven: { group: string; text: string }[]; undriven_robots: { robot: string; text: string }[] };
   };
   /** Starts the run, and pauses it when the first robot has finished so many more trials, after so many seconds of the world, or when a condition holds. */
   run_until: {
     arguments: { trials?: number | null; seconds?: number | null; condition?: string | null };
-    result: { undriven: { group: string; text: string }[] };
+    result: { undriven: { group: string; text: string }[]; undriven_robots: { robot: string; text: string }[] };
   };
   /** Says whether a condition holds now. */
   holds: {
