@@ -26,7 +26,7 @@ struct IntegrateFire {
         s.param("threshold", &T::threshold)
             .label("Threshold potential")
             .range(0, 1)
-            .doc("Potential below which act is 0.");
+            .doc("Potential below which the activity is 0.");
         s.param("spkAmpl", &T::amplitude)
             .label("Spike amplitude")
             .range(0, 1)
@@ -34,7 +34,7 @@ struct IntegrateFire {
         s.param("vmReset", &T::reset)
             .label("Membrane potential reset")
             .range(0, 1)
-            .doc("What a spike takes from vm.");
+            .doc("What a spike takes from the potential.");
         s.state("vm", &Cell::vm, "Membrane potential").oldest();
         s.output("act", &Cell::act, "Activity");
     }

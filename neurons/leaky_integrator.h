@@ -32,7 +32,7 @@ struct LeakyIntegrator {
         s.param("threshold", &T::threshold)
             .label("Threshold")
             .range(-1, 1)
-            .doc("Potential at which act begins.");
+            .doc("Potential at which the activity begins.");
         s.param("slope", &T::slope)
             .label("Slope")
             .range(0, 10)

@@ -26,7 +26,7 @@ struct LinearThreshold {
         s.param("threshold", &T::threshold)
             .label("Threshold potential")
             .range(0, 1)
-            .doc("Potential below which act is 0.");
+            .doc("Potential below which the activity is 0.");
         s.state("vm", &Cell::vm, "Membrane potential").oldest();
         s.output("act", &Cell::act, "Activity");
     }

@@ -22,7 +22,7 @@ struct PyramidApicalShunt {
         s.param("vmPrs", &T::persistence)
             .label("Membrane persistence")
             .range(0, 1)
-            .doc("Part of vm kept per cycle.");
+            .doc("Part of the potential kept per cycle.");
         s.param("threshold", &T::threshold)
             .label("Threshold potential")
             .range(0, 1)
@@ -30,7 +30,7 @@ struct PyramidApicalShunt {
         s.param("vmReset", &T::reset)
             .label("Membrane potential reset")
             .range(0, 1)
-            .doc("What a spike takes from vm.");
+            .doc("What a spike takes from the potential.");
         s.state("vm", &Cell::vm, "Membrane potential").oldest();
         s.output("act", &Cell::act, "Activity", 2);
         s.feedback("shunt", &Cell::shunt, "Apical shunt");

@@ -19,8 +19,14 @@ struct Sigmoid {
         using T = Sigmoid;
         s.name("neuronSigmoid", "Sigmoid").doc("Sums its inputs, leaks, squashes the potential to 0..1.");
         Membrane::describe(s, &T::membrane);
-        s.param("midpoint", &T::midpoint).label("Midpoint").range(0, 1).doc("Potential at which act is 0.5.");
-        s.param("slope", &T::slope).label("Slope").range(0, 1).doc("Steepness of act at the midpoint.");
+        s.param("midpoint", &T::midpoint)
+            .label("Midpoint")
+            .range(0, 1)
+            .doc("Potential at which the activity is 0.5.");
+        s.param("slope", &T::slope)
+            .label("Slope")
+            .range(0, 1)
+            .doc("Steepness of the activity at the midpoint.");
         s.state("vm", &Cell::vm, "Membrane potential", 2);
         s.output("act", &Cell::act, "Activity");
     }

@@ -21,8 +21,14 @@ struct TanH {
         s.name("neuronTanH", "Hyperbolic tangent")
             .doc("Sums its inputs, leaks, squashes the potential to -1..1.");
         Membrane::describe(s, &T::membrane);
-        s.param("midpoint", &T::midpoint).label("Midpoint").range(-1, 1).doc("Potential at which act is 0.");
-        s.param("slope", &T::slope).label("Slope").range(0, 10).doc("Steepness of act at the midpoint.");
+        s.param("midpoint", &T::midpoint)
+            .label("Midpoint")
+            .range(-1, 1)
+            .doc("Potential at which the activity is 0.");
+        s.param("slope", &T::slope)
+            .label("Slope")
+            .range(0, 10)
+            .doc("Steepness of the activity at the midpoint.");
         s.state("vm", &Cell::vm, "Membrane potential");
         s.output("act", &Cell::act, "Activity");
     }

@@ -28,16 +28,18 @@ struct Membrane {
         s.param("vmPrs", m, &Membrane::persistence)
             .label("Membrane persistence")
             .range(0, 1)
-            .doc("Part of vm kept per cycle.");
-        s.param("clipVm", m, &Membrane::clip).label("Clip potential").doc("Keep vm between vmMin and vmMax.");
+            .doc("Part of the potential kept per cycle.");
+        s.param("clipVm", m, &Membrane::clip)
+            .label("Clip potential")
+            .doc("Keep the potential between its minimum and its maximum.");
         s.param("vmMin", m, &Membrane::minimum)
             .label("Minimum potential")
             .range(0, 1)
-            .doc("Lowest vm when it is clipped.");
+            .doc("Lowest potential when it is clipped.");
         s.param("vmMax", m, &Membrane::maximum)
             .label("Maximum potential")
             .range(0, 1)
-            .doc("Highest vm when it is clipped.");
+            .doc("Highest potential when it is clipped.");
     }
     /// Warns when the minimum is above the maximum, because vm would always be the maximum.
     void check(Diagnostics& diagnostics) const {

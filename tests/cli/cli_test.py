@@ -753,7 +753,7 @@ class Others(Cli):
     def test_a_type_is_described_with_all_its_declarations(self):
         text = self.forage("types", "neuronLinearThreshold").stdout
         self.assertRegex(text, r"excIn +Excitation\n +inhIn +Inhibition\n +modIn +Modulation \(not read\)")
-        self.assertRegex(text, r"vmPrs +Part of vm kept per cycle. Default 0, usual range 0 to 1\.")
+        self.assertRegex(text, r"vmPrs +Part of the potential kept per cycle. Default 0, usual range 0 to 1\.")
         self.assertRegex(self.forage("types", "synapseHebbian").stdout, r"postact +Postsynaptic activity")
         self.assertRegex(self.forage("types", "moduleCL").stdout, r"Reads from groups\n +action +Action: any size\. The action")
 

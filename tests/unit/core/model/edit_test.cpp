@@ -52,8 +52,9 @@ TEST_CASE("An impossible edit changes nothing, and the error lists what exists")
         "'threshold'?");
     CHECK(Edit("P/C.threshold=1").said() ==
           "--set 'P/C.threshold=1': there is no 'P/C' | did you mean 'P/A'?");
-    CHECK(Edit("P/A.threshold=x").said() ==
-          "--set 'P/A.threshold=x', column 15: 'x' is not a number | Potential below which act is 0.");
+    CHECK(
+        Edit("P/A.threshold=x").said() ==
+        "--set 'P/A.threshold=x', column 15: 'x' is not a number | Potential below which the activity is 0.");
     CHECK(Edit("P.enableModule=maybe").said() ==
           "--set 'P.enableModule=maybe', column 16: 'maybe' is not true or false | ");
     CHECK(Edit("P.enableModul=true").said() ==
@@ -93,7 +94,8 @@ TEST_CASE("Names with dots and values with equals signs are split at the right p
     const std::string dotted = replaced(small_system, "name=\"A \"", "name=\"A.1\"");
     CHECK(value(Edit("P/A.1.threshold=0.25", dotted).a().neuron, "threshold") == "0.25");
     CHECK(Edit("P/A.threshold=a=b").said() ==
-          "--set 'P/A.threshold=a=b', column 15: 'a=b' is not a number | Potential below which act is 0.");
+          "--set 'P/A.threshold=a=b', column 15: 'a=b' is not a number | Potential below which the activity "
+          "is 0.");
 }
 
 TEST_CASE("A parameter has the value of its file, or the default of its type") {

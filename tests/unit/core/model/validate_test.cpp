@@ -104,10 +104,10 @@ TEST_CASE("A type that does not exist is reported with the nearest one") {
 TEST_CASE("An unknown parameter is reported with the one that was meant, which is also found by its label") {
     CHECK(one("\"threshold\"", "\"treshold\"") ==
           "16:26: error: neuronLinearThreshold has no parameter 'treshold' | did you mean 'threshold' "
-          "(Potential below which act is 0)?");
+          "(Potential below which the activity is 0)?");
     CHECK(one("\"threshold\"", "\"threshold Potential\"") ==
           "16:26: error: neuronLinearThreshold has no parameter 'threshold Potential' | did you mean "
-          "'threshold' (Potential below which act is 0)?");
+          "'threshold' (Potential below which the activity is 0)?");
     CHECK(one("\"weight\"", "\"colour\"") ==
           "33:57: error: synapseFixedWeight has no parameter 'colour' | there is 'weight'");
     CHECK(one(synapse,
@@ -119,7 +119,8 @@ TEST_CASE("An unknown parameter is reported with the one that was meant, which i
 
 TEST_CASE("An invalid value is reported with the expected kind, or with the value that was probably meant") {
     CHECK(one("\"0.5\"/>\n        <P", "\"half\"/>\n        <P") ==
-          "16:44: error: threshold = 'half' is not a number | threshold (Potential below which act is 0) is "
+          "16:44: error: threshold = 'half' is not a number | threshold (Potential below which the activity "
+          "is 0) is "
           "a number, 0 by default");
     CHECK(one("name=\"clipVm\" value=\"true\"", "name=\"clipVm\" value=\"yes\"") ==
           "17:41: error: clipVm = 'yes' is not true or false | did you mean 'true'?");
