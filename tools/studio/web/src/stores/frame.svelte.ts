@@ -39,11 +39,11 @@ class Frame {
   get hides(): boolean {
     return tight.matches;
   }
-  /** How many of the last pixels of a panel of this width the inspector covers, if the panel may as well be beside it. */
-  covered(right: number, width: number): number {
-    if (!this.inspector || !narrow.matches || tight.matches) return 0;
-    const pixels = right - (innerWidth - parseFloat(getComputedStyle(document.documentElement).getPropertyValue('--inspector')));
-    return pixels > 0 && width - pixels >= 200 ? pixels : 0;
+  /** How many of the last pixels of a panel lie below the inspector; null if nothing useful of it would be left beside it, or the inspector lies over nothing. */
+  covered(right: number, width: number): number | null {
+    if (!this.inspector || !narrow.matches || tight.matches) return null;
+    const pixels = Math.max(0, right - (innerWidth - parseFloat(getComputedStyle(document.documentElement).getPropertyValue('--inspector'))));
+    return width - pixels >= 200 ? pixels : null;
   }
   /** Shows the form of what is selected in place of the tree. */
   showForm(): void {
