@@ -265,10 +265,10 @@ describe('cells and names', () => {
     expect(tupleText({ source: [[1, 2]], target: [[3, 4]] })).toBe('1,2 → 3,4');
   });
   it('are chosen by tuples and regions: that others are not used is no mistake then', () => {
-    const all = reform(null, 'mapped');
-    expect([choosesCells(all, 'source'), choosesCells(reform(all, 'tuples'), 'source')]).toEqual([false, true]);
+    const all = reform(null, 'mapped'), tuples = reform(all, 'tuples');
+    expect(['chosen cells', 'advanced', 'one to one'].map((way) => choosesCells(way, tuples, 'source'))).toEqual([true, true, false]);
     const some = { ...all, source: spanned([1, 1], [2, 1]) } as typeof all;
-    expect([choosesCells(some, 'source'), choosesCells(some, 'target')]).toEqual([true, false]);
+    expect([choosesCells('advanced', all, 'source'), choosesCells('advanced', some, 'source'), choosesCells('advanced', some, 'target')]).toEqual([false, true, false]);
   });
   it('finds a name that is free', () => expect(freshName('Group', ['Group 1', 'Group 3'])).toBe('Group 2'));
 });

@@ -67,8 +67,8 @@ export function holds(region: Region, [x, y]: Place): boolean {
   return x >= region.x && x < region.x + region.width && y >= region.y && y < region.y + region.height;
 }
 
-/** Whether a pattern says which cells of a side it uses: that others are not used is no mistake then. */
-export const choosesCells = (pattern: Pattern, side: 'source' | 'target'): boolean => !('source' in pattern) || pattern[side].form !== 'all';
+/** Whether the user says which cells of a side are used: that others are not is no mistake then. */
+export const choosesCells = (way: string, pattern: Pattern, side: 'source' | 'target'): boolean => way === 'chosen cells' || (way === 'advanced' && (!('source' in pattern) || pattern[side].form !== 'all'));
 
 /** The region between two corners. */
 export function spanned([ax, ay]: Place, [bx, by]: Place): Region {
