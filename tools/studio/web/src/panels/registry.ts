@@ -22,6 +22,8 @@ export interface PanelProps {
 
 interface PanelKind {
   title(panel: PanelState): string;
+  /** The least size in which it is of use, in pixels, where it is more than that of all panels. */
+  least?: { minimumWidth: number; minimumHeight: number };
   load(): Promise<{ default: Component<PanelProps> }>;
 }
 
@@ -32,7 +34,7 @@ const group = (panel: PanelState) => model.group(panel.item ?? '')?.path ?? pane
 const connection = (panel: PanelState) => model.connection(panel.item ?? '')?.name ?? panel.item ?? '';
 
 export const kinds: Record<string, PanelKind> = {
-  arena: { title: () => 'Arena', load: () => import('./Arena.svelte') },
+  arena: { title: () => 'Arena', least: { minimumWidth: 260, minimumHeight: 240 }, load: () => import('./Arena.svelte') },
   diagram: { title: () => 'Diagram', load: () => import('./Diagram.svelte') },
   space: { title: (p) => group(p), load: () => import('./Space.svelte') },
   time: { title: (p) => (plotTitle(p.sources ?? []) ? `${plotTitle(p.sources!)} over time` : 'Over time'), load: () => import('./Time.svelte') },

@@ -10,6 +10,11 @@ type Where = { beside?: string; direction?: Direction; width?: number; height?: 
 
 const kindOf = (panel: { params?: unknown }) => (panel.params as PanelState).kind;
 
+/** Gives the panels of a layout their least sizes. */
+function withLeast(layout: SerializedDockview): void {
+  for (const p of Object.values(layout.panels)) Object.assign(p, kinds[kindOf(p)]?.least);
+}
+
 /** The width of the tutorial, of so much for all panels. */
 export const tutorialWidth = (all: number): number => Math.round(Math.min(440, Math.max(300, all * 0.36)));
 
@@ -47,6 +52,7 @@ class Dock {
       component: panel.kind,
       title: kinds[panel.kind]!.title(panel),
       params: panel,
+      ...kinds[panel.kind]!.least,
       inactive: where.inactive,
       ...(where.width ? { initialWidth: where.width } : {}),
       ...(where.height ? { initialHeight: where.height } : {}),
@@ -85,6 +91,7 @@ class Dock {
   restore(layout: SerializedDockview): void {
     const tutorial = this.api!.panels.find((p) => kindOf(p) === 'tutorial')?.params as PanelState | undefined;
     for (const p of Object.values(layout.panels)) if (tutorial && kindOf(p) === 'tutorial') p.params = tutorial;
+    withLeast(layout);
     this.api!.fromJSON(layout);
     if (tutorial && !this.find(tutorial)) this.openTutorial(tutorial);
   }
@@ -121,6 +128,7 @@ class Dock {
     const open = api.panels.map((p) => p.params as PanelState), active = api.activePanel?.params as PanelState | undefined;
     const layout = structuredClone(earlier);
     for (const p of api.panels) if (layout.panels[p.id]) layout.panels[p.id]!.params = p.params;
+    withLeast(layout);
     api.fromJSON(layout, { reuseExistingPanels: true });
     const keys = new Set(open.map(Dock.key));
     for (const p of [...api.panels]) if (!keys.has(Dock.key(p.params as PanelState))) api.removePanel(p);
@@ -170,12 +178,13 @@ class Dock {
     this.parked = [];
   }
 
-  /** Opens a plot where the other plots are, or beside the diagram, which it does not cover where there is another place. */
+  /** Opens a plot where the other plots are, or beside the diagram, which it does not cover where there is another place. A window without room for columns has it among the tabs. */
   plot(panel: PanelState): string | null {
     const groups = this.api?.groups.filter((g) => g.activePanel && !['diagram', 'tutorial'].includes(kindOf(g.activePanel))) ?? [];
     const last = groups.flatMap((g) => g.panels).filter((p) => isPlot(p.params as PanelState)).pop();
-    if (last) return this.open(panel, { beside: last.id, direction: last.api.height > 420 && !frame.small ? 'below' : 'within' });
+    if (last) return this.open(panel, { beside: last.id, direction: last.api.height > 420 && frame.room === 'wide' ? 'below' : 'within' });
     const diagram = this.api?.panels.find((p) => kindOf(p) === 'diagram' && p.api.isVisible);
+    if (diagram && frame.room !== 'wide') return this.open(panel, { beside: diagram.id });
     if (diagram && diagram.api.width > 600) return this.open(panel, { beside: diagram.id, direction: 'right', width: Math.round(0.4 * diagram.api.width) });
     return this.open(panel, { beside: groups[0]?.activePanel?.id ?? this.main?.id });
   }

@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
-import { accessible, answeredTo, picture, sent, until } from './support.mjs';
+import { accessible, answeredTo, find, picture, sent, until } from './support.mjs';
 
 export default async function({ site, folder, start, open, faults, step }) {
   const page = await open(await start().address);
@@ -280,6 +280,20 @@ export default async function({ site, folder, start, open, faults, step }) {
   for (const drawer of [page.getByRole('navigation'), page.getByRole('region', { name: 'Inspector' })]) await drawer.waitFor(); // what it had taken the place of
   await page.getByRole('button', { name: 'Tutorial', exact: true }).click();
   await tutorial.waitFor();
+
+  step('in a narrow window with trials, it leaves the arena the room that it needs');
+  await page.getByRole('button', { name: 'Tutorial', exact: true }).click();
+  await tutorial.waitFor({ state: 'detached' });
+  await page.setViewportSize({ width: 1024, height: 700 });
+  await find(page, 'layout: overview');
+  await find(page, 'learning curve');
+  await page.getByRole('button', { name: 'Tutorial', exact: true }).click();
+  await tutorial.waitFor();
+  await until(page, 'room for the arena', () => {
+    const { offsetWidth, offsetHeight } = document.querySelector('[role="group"][aria-label="Arena"]');
+    return offsetWidth >= 260 && offsetHeight >= 200;
+  });
+  await page.setViewportSize({ width: 1400, height: 900 });
 
   step('links lead to other parts; after reloading the same part is shown');
   await page.reload();
