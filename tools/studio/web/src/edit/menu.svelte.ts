@@ -3,6 +3,8 @@ export interface Entry {
   label: string;
   /** How the finder names it; without it, by the label. */
   name?: string;
+  /** Other words by which the finder finds it. */
+  words?: string;
   keys?: string;
   /** Whether it cannot be chosen now. */
   disabled?: boolean;

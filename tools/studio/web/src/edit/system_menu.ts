@@ -18,12 +18,12 @@ import { worldFile } from './world.svelte';
 export function systemMenu(): Entries {
   const process = model.processes.find((p) => p.id === selection.process);
   return [
-    { label: 'New…', name: 'New system', keys: 'Alt N', act: () => fileDialog.open('new') },
-    { label: 'Open…', name: 'Open a system', keys: 'Ctrl O', act: () => fileDialog.open('open') },
-    { label: 'Open an example…', name: 'Open an example', act: () => examples.open() },
+    { label: 'New…', name: 'New system', words: 'create start begin build robot', keys: 'Alt N', act: () => fileDialog.open('new') },
+    { label: 'Open…', name: 'Open a system', words: 'load file', keys: 'Ctrl O', act: () => fileDialog.open('open') },
+    { label: 'Open an example…', name: 'Open an example', words: 'demo sample robot load', act: () => examples.open() },
     { label: 'Save', keys: 'Ctrl S', disabled: !editing.dirty && editing.file !== '' && !editing.backupOf, act: save },
     { label: 'Save as…', keys: 'Ctrl Shift S', act: () => fileDialog.open('save as') },
-    { label: 'Save a backup', keys: 'Ctrl B', disabled: !editing.file || editing.shipped, act: backup },
+    { label: 'Save a backup', words: 'copy keep', keys: 'Ctrl B', disabled: !editing.file || editing.shipped, act: backup },
     ...(inBrowser
       ? [
         null,
@@ -33,24 +33,24 @@ export function systemMenu(): Entries {
       ]
       : []),
     null,
-    { label: 'Add a part…', act: () => palette.open([20, 20]) },
+    { label: 'Add a part…', words: 'template library insert', act: () => palette.open([20, 20]) },
     { label: 'Import a process…', act: () => fileDialog.open('import') },
     { label: 'Link a process…', act: () => fileDialog.open('link') },
     { label: 'Export the process…', name: `Export the process ${process?.name}`, disabled: !process, act: () => fileDialog.open('export', process?.id) },
     ...(process ? partEntries(process) : []),
     null,
-    { label: 'Changes since the last save', act: () => dock.plot({ kind: 'difference' }) },
+    { label: 'Changes since the last save', words: 'difference diff', act: () => dock.plot({ kind: 'difference' }) },
     { label: `Problems (${editing.problems.length})`, name: 'Show the problems', act: () => dock.plot({ kind: 'problems' }) },
     { label: 'XML of the system', name: 'Edit the XML of the system', act: () => openText() },
     { label: 'Properties of the system', act: () => properties('system') },
     null,
-    { label: 'Another world…', act: () => fileDialog.open('world') },
-    { label: 'Edit the world', disabled: !model.world, act: () => dock.openBeside({ kind: 'world' }, 'arena') },
+    { label: 'Another world…', words: 'open arena maze load', act: () => fileDialog.open('world') },
+    { label: 'Edit the world', words: 'walls floor light robot', disabled: !model.world, act: () => dock.openBeside({ kind: 'world' }, 'arena') },
     { label: 'Save the world', disabled: !worldFile.dirty, act: saveWorld },
     { label: 'Save the world as…', disabled: !worldFile.document, act: () => fileDialog.open('save the world') },
     null,
-    { label: 'Settings…', act: () => (dialogs.shown = 'settings') },
-    { label: 'About Forage', act: () => (dialogs.shown = 'about') },
+    { label: 'Settings…', words: 'preferences options', act: () => (dialogs.shown = 'settings') },
+    { label: 'About Forage', words: 'version help', act: () => (dialogs.shown = 'about') },
     ...(run.can('quit') ? [{ label: 'Quit…', act: quit }] : []),
   ];
 }

@@ -22,6 +22,8 @@ export interface PanelProps {
 
 interface PanelKind {
   title(panel: PanelState): string;
+  /** Other words by which the finder finds it. */
+  words?: string;
   /** The least size in which it is of use, in pixels, where it is more than that of all panels. */
   least?: { minimumWidth: number; minimumHeight: number };
   load(): Promise<{ default: Component<PanelProps> }>;
@@ -34,22 +36,22 @@ const group = (panel: PanelState) => model.group(panel.item ?? '')?.path ?? pane
 const connection = (panel: PanelState) => model.connection(panel.item ?? '')?.name ?? panel.item ?? '';
 
 export const kinds: Record<string, PanelKind> = {
-  arena: { title: () => 'Arena', least: { minimumWidth: 260, minimumHeight: 240 }, load: () => import('./Arena.svelte') },
-  diagram: { title: () => 'Diagram', load: () => import('./Diagram.svelte') },
-  space: { title: (p) => group(p), load: () => import('./Space.svelte') },
-  time: { title: (p) => (plotTitle(p.sources ?? []) ? `${plotTitle(p.sources!)} over time` : 'Over time'), load: () => import('./Time.svelte') },
+  arena: { title: () => 'Arena', words: 'robot world map path trail drive', least: { minimumWidth: 260, minimumHeight: 240 }, load: () => import('./Arena.svelte') },
+  diagram: { title: () => 'Diagram', words: 'graph network wiring connections model', load: () => import('./Diagram.svelte') },
+  space: { title: (p) => group(p), words: 'graph picture activity heat map', load: () => import('./Space.svelte') },
+  time: { title: (p) => (plotTitle(p.sources ?? []) ? `${plotTitle(p.sources!)} over time` : 'Over time'), words: 'graph curve trace line activity', load: () => import('./Time.svelte') },
   raster: { title: (p) => `${group(p)} raster`, load: () => import('./Raster.svelte') },
   weights: { title: (p) => `${connection(p)} weights`, load: () => import('./Weights.svelte') },
   wiring: { title: (p) => `${connection(p)} wiring`, load: () => import('./Wiring.svelte') },
-  trials: { title: () => 'Trials', load: () => import('./Trials.svelte') },
-  camera: { title: (p) => `Camera of ${p.item}`, load: () => import('./Camera.svelte') },
+  trials: { title: () => 'Trials', words: 'learning curve hits misses success score results performance graph plot', load: () => import('./Trials.svelte') },
+  camera: { title: (p) => `Camera of ${p.item}`, words: 'robot sees view', load: () => import('./Camera.svelte') },
   manipulate: { title: (p) => `Drive ${group(p)}`, load: () => import('./Manipulate.svelte') },
-  sampler: { title: () => 'Record to a file', load: () => import('./Sampler.svelte') },
-  chosen: { title: () => 'Chosen parameters', load: () => import('./Chosen.svelte') },
-  tutorial: { title: () => 'Tutorial', load: () => import('./Tutorial.svelte') },
+  sampler: { title: () => 'Record to a file', words: 'save data csv measure export', load: () => import('./Sampler.svelte') },
+  chosen: { title: () => 'Chosen parameters', words: 'settings change values sliders tune', load: () => import('./Chosen.svelte') },
+  tutorial: { title: () => 'Tutorial', words: 'help learn exercises lessons course', load: () => import('./Tutorial.svelte') },
   world: { title: () => 'World', load: () => import('./World.svelte') },
   text: { title: () => 'XML', load: () => import('./Text.svelte') },
   problems: { title: () => 'Problems', load: () => import('./Problems.svelte') },
   difference: { title: () => 'Changes', load: () => import('./Difference.svelte') },
-  log: { title: () => 'Log', load: () => import('./Log.svelte') },
+  log: { title: () => 'Log', words: 'history commands script python shell', load: () => import('./Log.svelte') },
 };

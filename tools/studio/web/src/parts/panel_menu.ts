@@ -4,7 +4,10 @@ import type { Entries, Entry } from '../edit/menu.svelte';
 import { dock } from '../stores/dock.svelte';
 import type { PanelState } from '../panels/registry';
 import { figureDialog } from './figure_dialog.svelte';
+import type { Found } from './finder';
 import { canMove, close, closeOthers, float, floats, join, maximize, move, reorder, resize, shares, split, unfloat, type Side } from '../stores/moves';
+
+export const figureWords = 'picture image screenshot save print graph plot';
 
 const ways: [Side, string][] = [['left', '←'], ['right', '→'], ['above', '↑'], ['below', '↓']];
 
@@ -20,7 +23,7 @@ export function panelMenu(p: IDockviewPanel): Entries {
   const panel = p.params as PanelState;
   const joins: Entry[] = stacks.map(({ group, name }) => ({ label: name, act: () => join(p, group) }));
   return [
-    ...(figureDialog.of(panel) ? [{ label: 'Export figure…', act: () => figureDialog.open(panel) }, null] : []),
+    ...(figureDialog.of(panel) ? [{ label: 'Export figure…', words: figureWords, act: () => figureDialog.open(panel) }, null] : []),
     ...ways.map(([side, arrow]) => ({ label: `Move ${side}`, keys: `Ctrl Shift ${arrow}`, disabled: !canMove(p, side), act: () => move(p, side) })),
     // Move is for the whole window there.
     ...(floats(p) && shares(p) ? [null, ...ways.map(([side]) => ({ label: `Split ${side}`, act: () => split(p, side) }))] : []),
@@ -41,11 +44,11 @@ export function panelMenu(p: IDockviewPanel): Entries {
 }
 
 /** The same for the finder, named as actions on the active panel. */
-export function panelActions(p: IDockviewPanel): { name: string; act(): unknown }[] {
+export function panelActions(p: IDockviewPanel): Omit<Found, 'kind'>[] {
   const named = (label: string) => `Panel: ${label[0]!.toLowerCase()}${label.slice(1)}`;
   return panelMenu(p).flatMap((e) => {
     if (!e || e.disabled) return [];
     if (e.more) return e.more().flatMap((m) => (m?.act ? [{ name: `Panel: into the tabs of ${m.label}`, act: m.act }] : []));
-    return e.act ? [{ name: named(e.label), act: e.act }] : [];
+    return e.act ? [{ name: named(e.label), words: e.words, act: e.act }] : [];
   });
 }

@@ -69,6 +69,19 @@ export default async function({ start, open, faults, step }) {
   await page.getByRole('button', { name: 'Redo' }).click();
   await until(page, 'redo', (id) => document.getElementById(id)?.value === '0.77', 'Adaptive/Threshold CR.threshold');
 
+  step('Ctrl+K finds panels and actions by other words for them');
+  await page.keyboard.press('Control+k');
+  for (
+    const [words, name] of [['learning curve', 'Trials and their learning curve'], ['hits', 'Trials and their learning curve'], ['faster', 'Speed: 20×'], ['reset', 'Stop: back to cycle 0'], ['start again', 'Stop: back to cycle 0'], ['robot', 'Show the arena'], ['graph', 'Plot over time'], ['screenshot', 'Export the figure of Arena'], [
+      'theme',
+      'Switch between light and dark',
+    ]]
+  ) {
+    await page.getByRole('combobox', { name: 'Find' }).fill(words);
+    await page.getByRole('option', { name }).waitFor();
+  }
+  await page.keyboard.press('Escape');
+
   step('drive the motor by hand: the plot shows the clamped cell');
   await page.getByRole('navigation').getByText('Motor', { exact: true }).click();
   await inspector.getByRole('button', { name: 'Drive' }).click();
@@ -135,7 +148,7 @@ export default async function({ start, open, faults, step }) {
   step('a number of trials runs, and then it pauses; hits and misses stand by their starts');
   await page.getByRole('button', { name: 'End', exact: true }).click(); // the driving
   await page.getByRole('button', { name: 'Max', exact: true }).click();
-  await page.getByRole('button', { name: /^Trial \d/ }).click();
+  await page.getByRole('button', { name: 'Trials…' }).click();
   const trials = page.getByRole('group', { name: 'Trials' });
   await trials.getByLabel('Number of trials').fill('3');
   await trials.getByRole('button', { name: 'Run', exact: true }).click();
