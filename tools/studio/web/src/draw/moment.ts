@@ -1,4 +1,5 @@
 // How the page writes moments and spans of a run: seconds, with the cycles in brackets, as figures of the library do.
+import { counted } from './counted';
 
 /** Seconds with at most two decimals. */
 const seconds = (cycles: number, perCycle: number) => String(Math.round(cycles * perCycle * 100) / 100);
@@ -7,4 +8,4 @@ const seconds = (cycles: number, perCycle: number) => String(Math.round(cycles *
 export const momentText = (cycle: number, perCycle: number): string => `${seconds(cycle, perCycle)} s (cycle ${cycle})`;
 
 /** "16 s (400 cycles)" */
-export const spanText = (cycles: number, perCycle: number): string => `${seconds(cycles, perCycle)} s (${cycles} ${cycles === 1 ? 'cycle' : 'cycles'})`;
+export const spanText = (cycles: number, perCycle: number): string => `${seconds(cycles, perCycle)} s (${counted(cycles, 'cycle')})`;
