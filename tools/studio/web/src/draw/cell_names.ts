@@ -18,6 +18,27 @@ export function directionWords({ names, width, height }: { names: CellNames | nu
   });
 }
 
+/** A text without its middle, where it does not fit. */
+function withoutMiddle(text: string, width: number, widthOf: (text: string) => number): string {
+  if (widthOf(text) <= width) return text;
+  for (let kept = text.length - 1; kept > 1; kept--) {
+    const short = `${text.slice(0, Math.ceil(kept / 2)).trimEnd()}…${text.slice(text.length - Math.floor(kept / 2)).trimStart()}`;
+    if (widthOf(short) <= width) return short;
+  }
+  return '…';
+}
+
+/** A name within a width: broken between its words where there is room for lines, else without its middle. */
+export function nameLines(name: string, width: number, maxLines: number, widthOf: (text: string) => number): string[] {
+  const lines: string[] = [];
+  for (const word of name.split(' ')) {
+    const longer = lines.length ? `${lines[lines.length - 1]} ${word}` : '';
+    if (longer && widthOf(longer) <= width) lines[lines.length - 1] = longer;
+    else lines.push(word);
+  }
+  return lines.length <= maxLines && lines.every((l) => widthOf(l) <= width) ? lines : [withoutMiddle(name, width, widthOf)];
+}
+
 /** A name on an axis, from `start` on, in pixels. */
 interface AxisLabel {
   text: string;

@@ -1,5 +1,5 @@
 import { describe, expect, it, vi } from 'vitest';
-import { axisLabels, cellName, directionWords } from '../../src/draw/cell_names';
+import { axisLabels, cellName, directionWords, nameLines } from '../../src/draw/cell_names';
 import { Lattice } from '../../src/draw/lattice';
 import { momentText, spanText } from '../../src/draw/moment';
 import type { Group, SystemMessage } from '../../src/protocol/messages';
@@ -54,4 +54,14 @@ it('moments and spans are seconds, with the cycles in brackets', () => {
   expect(momentText(310, 0.04)).toBe('12.4 s (cycle 310)');
   expect(momentText(1, 1 / 30)).toBe('0.03 s (cycle 1)');
   expect(spanText(400, 0.04)).toBe('16 s (400 cycles)');
+});
+
+describe('names of rows', () => {
+  const widthOf = (text: string) => text.length;
+  it('are broken between words where there is room for lines', () => expect(nameLines('on the spot, left 100 %', 10, 3, widthOf)).toEqual(['on the', 'spot, left', '100 %']));
+  it('lose their middle elsewhere, and keep both ends', () => {
+    expect(nameLines('on the spot, left 100 %', 11, 2, widthOf)).toEqual(['on th…100 %']);
+    expect(nameLines('ahead', 5, 1, widthOf)).toEqual(['ahead']);
+    expect(nameLines('ahead', 1, 1, widthOf)).toEqual(['…']);
+  });
 });
