@@ -3,6 +3,7 @@ import { inBrowser, workerSocket } from './browser/socket';
 import { CommandError, Connection, type Arguments, type CommandName, type Result, type Socket } from './connection';
 import { protocolVersion, type ServerMessage, type SystemMessage } from './protocol/messages';
 import type { Frame } from './protocol/frame';
+import { tellDownloads } from './draw/save';
 import { editing } from './edit/document.svelte';
 import { endedText } from './edit/ended_text';
 import { worldFile } from './edit/world.svelte';
@@ -13,6 +14,8 @@ import { model } from './stores/model.svelte';
 import { selection } from './stores/selection.svelte';
 import { run } from './stores/run.svelte';
 import { Streams } from './streams';
+
+tellDownloads((name) => actions.notify('info', `${name} is in the downloads of the browser.`));
 
 /** A socket to the server of this page, or in a page without a server to a session in a worker. */
 function connect(): Socket {

@@ -1,6 +1,10 @@
 // Saves what a panel shows: PNG and SVG of its canvas, CSV of its numbers.
 import { cssColour, type MapName } from './colours';
 
+let tell = (_name: string): unknown => undefined;
+/** Has each file told by its name. */
+export const tellDownloads = (by: typeof tell): unknown => (tell = by);
+
 export function download(name: string, type: string, content: BlobPart): void {
   const url = URL.createObjectURL(new Blob([content], { type }));
   const link = document.createElement('a');
@@ -8,6 +12,7 @@ export function download(name: string, type: string, content: BlobPart): void {
   link.download = name;
   link.click();
   setTimeout(() => URL.revokeObjectURL(url), 1000);
+  tell(name);
 }
 
 const savePngOf = (name: string, canvas: HTMLCanvasElement) => canvas.toBlob((blob) => blob && download(`${name}.png`, 'image/png', blob));
@@ -114,10 +119,18 @@ export function linesSvg(x: ArrayLike<number>, lines: { label: string; colour: s
     }
     return `<path d="${d}" fill="none" stroke="${l.colour}" stroke-width="1.5"/>`;
   });
-  const keys = lines.map((l, i) => `<text x="${56 + i * 180}" y="14" fill="${l.colour}">${escape(l.label)}</text>`);
-  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 ${width} ${height}" font-family="sans-serif" font-size="11">${keys.join('')}<text x="4" y="26">${high.toPrecision(3)}</text><text x="4" y="${height - 24}">${
-    low.toPrecision(3)
-  }</text><text x="50" y="${height - 6}">${x0.toFixed(1)} s</text><text x="${width - 50}" y="${height - 6}">${x1.toFixed(1)} s</text>${paths.join('')}</svg>\n`;
+  // The keys stand side by side, in as many rows above the lines as they need.
+  let right = 56, above = 0;
+  const places = lines.map(({ label }) => {
+    const wide = 7 * label.length + 14;
+    if (right > 56 && right + wide > width) (right = 56), above++;
+    right += wide;
+    return [right - wide, above] as const;
+  });
+  const keys = lines.map((l, i) => `<text x="${places[i]![0]}" y="${14 + 14 * (places[i]![1] - above)}" fill="${l.colour}">${escape(l.label)}</text>`);
+  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 ${-14 * above} ${width} ${height + 14 * above}" font-family="sans-serif" font-size="11">${keys.join('')}<text x="4" y="26">${high.toPrecision(3)}</text><text x="4" y="${
+    height - 24
+  }">${low.toPrecision(3)}</text><text x="50" y="${height - 6}">${x0.toFixed(1)} s</text><text x="${width - 50}" y="${height - 6}">${x1.toFixed(1)} s</text>${paths.join('')}</svg>\n`;
 }
 
 export function csv(header: string[], rows: Iterable<ArrayLike<number | string>>): string {

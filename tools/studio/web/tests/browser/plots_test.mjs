@@ -79,6 +79,7 @@ export default async function({ folder, start, open, faults, step }) {
   /** The text of what a panel saves. */
   const saved = async (panel, format) => {
     const [download] = await Promise.all([page.waitForEvent('download'), panel.getByLabel('Save').selectOption(format)]);
+    await page.getByText(`${download.suggestedFilename()} is in the downloads of the browser.`).waitFor();
     return readFileSync(await download.path(), format === 'png' ? 'base64' : 'utf8');
   };
   step('space: the rectangle of the selection is enlarged, read and selected as before, until Escape');

@@ -83,4 +83,9 @@ describe('files', () => {
     expect(svg).toContain('&lt;b&gt;');
   });
   it('breaks lines where there is no value', () => expect(linesSvg([0, 1, 2], [{ label: '<x>', colour: '#000', y: [1, NaN, 2] }])).toMatch(/&lt;x&gt;.*d="M[\d. ]+M[\d. ]+"/));
+  it('gives keys without room in one row another row', () => {
+    const keys = linesSvg([0, 1], ['a', 'b'].map((c) => ({ label: c.repeat(60), colour: '#000', y: [0, 1] })));
+    expect(keys.match(/<text x="56" y="(0|14)"/g)).toHaveLength(2);
+    expect(keys).toContain('viewBox="0 -14 800 334"');
+  });
 });
