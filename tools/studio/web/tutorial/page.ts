@@ -59,10 +59,10 @@ export function readSetup(text: string): Setup {
 const setupComment = /^<!-- studio\n/gm;
 /** A question in the text, with the comment in front that says its answer, and the list of what one chooses from. */
 const question = /^<!-- ask: (.+) -->\n(.+(?:\n.+)*)\n(?:\n((?:- .+\n)+))?/gm;
-/** A question with its field: a number, or one of `options`. */
-function askHtml(text: string, options: string[], name: string): string {
+/** A question with its field: a number, at most so many where trials are counted, or one of `options`. The page makes the fields for numbers. */
+function askHtml({ asked }: Check, text: string, options: string[], name: string): string {
   const fields = options.map((o, i) => `<label><input type="radio" name="${name}" value="${i + 1}"><span>${inline(o)}</span></label>`);
-  return `<fieldset class="ask"><legend>${inline(text)}</legend>${fields.join('') || '<label>Your number <input type="number" step="any"></label>'}</fieldset>`;
+  return `<fieldset class="ask"><legend>${inline(text)}</legend>${fields.join('') || `<label>Your number <span data-number="${asked && 'count' in asked ? asked.count.last : ''}"></span></label>`}</fieldset>`;
 }
 /** Takes the questions out of the text. Returns those of each set-up, which stand behind it. */
 function takeQuestions(markdown: string): { text: string; questions: { check: Check; html: string }[][] } {
@@ -72,7 +72,7 @@ function takeQuestions(markdown: string): { text: string; questions: { check: Ch
     const of = questions[[...markdown.slice(0, offset).matchAll(setupComment)].length - 1];
     if (!of) throw new Error(`'${ask}' stands behind no set-up`);
     if (check.asked && ('choice' in check.asked ? check.asked.choice > options.length : options.length > 0)) throw new Error(`'${ask}' does not fit the list behind it`);
-    of.push({ check, html: askHtml(words.replaceAll('\n', ' '), options, `ask-${questions.indexOf(of)}-${of.length}`) });
+    of.push({ check, html: askHtml(check, words.replaceAll('\n', ' '), options, `ask-${questions.indexOf(of)}-${of.length}`) });
     return '';
   });
   return { text, questions };

@@ -1,4 +1,5 @@
 // The button of an exercise that says in words whether what was seen and answered is right.
+import { readNumber } from '../parts/read_number';
 import { sinceLastChange } from '../draw/trials';
 import { actions } from '../stores/actions.svelte';
 import { run } from '../stores/run.svelte';
@@ -14,9 +15,10 @@ interface Answer {
   number: number;
 }
 function answerIn(field: HTMLElement): Answer | undefined {
-  const input = field.querySelector<HTMLInputElement>('input[type=number], input:checked');
-  if (!input?.value) return undefined;
-  return { number: Number(input.value), text: input.type === 'radio' ? input.parentElement!.innerText.trim().replace(/\.$/, '') : input.value };
+  const input = field.querySelector<HTMLInputElement>('input[role=spinbutton], input:checked');
+  const number = input && readNumber(input.value);
+  if (!input || typeof number !== 'number') return undefined;
+  return { number, text: input.type === 'radio' ? input.parentElement!.innerText.trim().replace(/\.$/, '') : input.value };
 }
 
 async function find(check: Check, before: Finding | undefined, field: HTMLElement | undefined, looked: boolean): Promise<Finding> {

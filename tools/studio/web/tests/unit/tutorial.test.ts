@@ -97,7 +97,7 @@ describe('pages of the tutorial', () => {
     expect(made.html).toContain('<legend>Which of them?</legend><label><input type="radio" name="ask-0-0" value="1"><span>one</span></label>');
     expect(made.html.indexOf('</fieldset>')).toBeLessThan(made.html.indexOf('</section>'));
     expect(made.html).toMatch(/<p>Text\.<\/p>\s*$/);
-    expect(withQuestion('hits of 5 trials; the boxes', '').html).toContain('<input type="number"');
+    expect(withQuestion('hits of 5 trials; the boxes', '').html).toContain('<span data-number="5">');
   });
   it('refuse a question without its list, or without a set-up', () => {
     expect(() => withQuestion('choice 3; the plot')).toThrow('does not fit the list');
