@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/hit_counts.h"
 #include "core/base/number.h"
 #include "core/base/separated.h"
 #include "core/base/table.h"
@@ -24,8 +25,6 @@ using plot::PlotSpec;
 constexpr std::size_t max_lines = 10;  ///< that readers can distinguish
 constexpr std::size_t unreadable_lines = 100;
 constexpr std::size_t max_blocks = 25;  ///< of trials, in a picture of learning
-
-constexpr std::size_t running_trials = 20;  ///< of a single run, which are averaged
 
 /// Places of values on an axis, and whether they are logarithms. On a logarithmic axis, 0 is at the left, and
 /// the axis is broken at `gap`.
@@ -149,13 +148,12 @@ std::unordered_map<std::string, Numbers> numbers_of_trials(const std::string& pa
 /// The share of targets among the last trials, after each of them.
 plot::LinesPlot::Line running_share(const Numbers& outcomes) {
     plot::LinesPlot::Line out;
-    std::size_t hits = 0;
-    for (std::size_t t = 0; t < outcomes.size(); ++t) {
-        hits += *outcomes[t] == 1;
-        if (t >= running_trials) hits -= *outcomes[t - running_trials] == 1;
-        auto y = share(hits, std::min(t + 1, running_trials));
+    HitCounts hits;
+    for (const auto& outcome : outcomes) {
+        hits.add(*outcome == 1);
+        auto y = hits.learned(hits.size());
         y.count = 1;  // no runs are missing
-        out.points.push_back({static_cast<double>(t + 1), y});
+        out.points.push_back({static_cast<double>(hits.size()), y});
     }
     return out;
 }
@@ -264,7 +262,7 @@ std::optional<plot::Picture> draw_learning(const PlotSpec& spec, const std::vect
                         {},    {}, {}};
     if (spec.what.empty() && trials.size() == 1 && trials.front().size() == 1) {
         out.subtitle = fmt::format("{}{}mean of the last {} trials, with its 95 % interval", part,
-                                   part.empty() ? "" : "; ", running_trials);
+                                   part.empty() ? "" : "; ", learning_window);
         out.lines = {running_share(trials.front().front())};
         return plot::lines_plot(out);
     }
