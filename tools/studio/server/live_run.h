@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/base/hit_counts.h"
 #include "core/observe/recorder.h"
 #include "core/run/run.h"
 #include "core/run/run_spec.h"
@@ -73,6 +74,13 @@ struct LiveRun {
         StopOrigin since;
     };
     std::optional<PauseCondition> pause_when;
+    /// The hits among the finished trials of the first robot, and the course of the run that they are of.
+    struct CountedHits {
+        HitCounts counts;
+        const Run* run = nullptr;
+        std::uint32_t epoch = 0;
+    };
+    mutable CountedHits counted_hits;
     std::optional<Sampler> sampler;
     std::optional<SamplerRequest> waiting_sampler;  ///< that begins with the run
     bool sampled = false;                           ///< whether it has begun in this run

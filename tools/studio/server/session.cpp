@@ -170,6 +170,15 @@ json Session::world_message() {
     return out;
 }
 
+const HitCounts& Session::hits() const {
+    auto& [counts, run, epoch] = live.counted_hits;
+    if (run != live.run.get() || epoch != live.epoch)
+        counts.clear(), run = live.run.get(), epoch = live.epoch;
+    const auto& finished = live.run->environment()->trials(0);
+    for (std::size_t i = counts.size(); i < finished.size(); ++i) counts.add(finished[i].reached_target);
+    return counts;
+}
+
 json Session::trials_status() const {
     if (!live.run->has_trials()) return nullptr;
     const auto& world = *live.run->environment();
@@ -183,7 +192,7 @@ json Session::trials_status() const {
         return out;
     };
     return {{"finished", finished.size()},
-            {"reached", std::ranges::count(finished, true, &Trial::reached_target)},
+            {"reached", hits().among(0, finished.size())},
             {"current", trial(world.current_trial(0))},
             {"last", finished.empty() ? json(nullptr) : trial(finished.back())}};
 }

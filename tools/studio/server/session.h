@@ -137,6 +137,8 @@ class Session {
     void log(const LoggedAction& action);
     json status() const;
     json trials_status() const;
+    /// The hits among the finished trials of the first robot, of a run that has trials.
+    const HitCounts& hits() const;
     json system_message();
     json world_message();
     void close_sampler();

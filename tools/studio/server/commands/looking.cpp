@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -74,10 +75,18 @@ json list_synapses(Session& s, const Request& r) {
     return out;
 }
 
+/// The first of the trials that began in a cycle or later.
+std::size_t first_since(const std::vector<Trial>& trials, std::uint64_t cycle) {
+    return static_cast<std::size_t>(std::ranges::lower_bound(trials, cycle, {}, &Trial::first_cycle) -
+                                    trials.begin());
+}
+
 json list_trials(Session& s, const Request& r) {
     json out = json::array();
     const auto& all = world_of(s.run()).trials(find_robot(s, r));
-    for (std::size_t i = r.whole("from"); i < all.size(); ++i) {
+    const auto begin = std::max<std::size_t>(r.whole("from"), first_since(all, r.whole("since")));
+    const auto end = r.has("count") ? std::min(all.size(), begin + r.whole("count")) : all.size();
+    for (std::size_t i = begin; i < end; ++i) {
         const Trial& t = all[i];
         json row = {{"number", t.number},
                     {"seconds", static_cast<double>(t.cycles) * s.run().seconds_per_cycle()},
@@ -91,6 +100,39 @@ json list_trials(Session& s, const Request& r) {
         out.push_back(std::move(row));
     }
     return {{"trials", std::move(out)}};
+}
+
+json count_hits(Session& s, const Request& r) {
+    if (!s.run().has_trials()) throw InputError("the world has no trials");
+    const HitCounts& hits = s.hits();
+    const std::size_t all = hits.size();
+    const auto among = [&](std::size_t from) {
+        const std::size_t count = all - std::min(from, all);
+        json out = {{"hits", hits.among(all - count, all)},
+                    {"trials", count},
+                    {"share", nullptr},
+                    {"low", 0},
+                    {"high", 1}};
+        if (count == 0) return out;
+        const Estimate e = share(hits.among(all - count, all), count);
+        out["share"] = e.mean, out["low"] = e.low, out["high"] = e.high;
+        return out;
+    };
+    json curve = {
+        {"trial", json::array()}, {"share", json::array()}, {"low", json::array()}, {"high", json::array()}};
+    const std::size_t points = std::min<std::size_t>(all, r.whole("points"));
+    for (std::size_t i = 1; i <= points; ++i) {
+        const std::size_t trial = i * all / points;
+        const Estimate e = hits.learned(trial);
+        curve["trial"].push_back(trial), curve["share"].push_back(e.mean);
+        curve["low"].push_back(e.low), curve["high"].push_back(e.high);
+    }
+    const auto& trials = s.run().environment()->trials(0);
+    return {{"all", among(0)},
+            {"last", among(all - std::min<std::size_t>(all, r.whole("last")))},
+            {"since", among(first_since(trials, r.whole("since")))},
+            {"window", learning_window},
+            {"curve", std::move(curve)}};
 }
 
 }  // namespace
@@ -131,10 +173,23 @@ std::vector<Command> looking_commands() {
         {.name = "trials",
          .doc = "Lists the finished trials; lengths in m, angles in rad.",
          .arguments = {optional("robot", text(), "", "by default the first"),
-                       optional("from", whole(0, 1'000'000'000), 0,
-                                "how many are left out at the beginning")},
+                       optional("from", whole(0, 1'000'000'000), 0, "how many are left out at the beginning"),
+                       optional("since", whole(), 0, "the cycle in which the first one began, or later"),
+                       optional("count", whole(1, 1'000'000'000), nullptr, "at most so many")},
          .result = "{ trials: Trial[] }",
          .apply = list_trials},
+        {.name = "learning",
+         .doc =
+             "Counts the hits among the finished trials of the first robot, with intervals of 95 %: of all, "
+             "of the last ones, of those that began in a cycle or later, and in the `window` before "
+             "each point of the learning curve.",
+         .arguments = {optional("last", whole(1, 1'000'000'000), 50),
+                       optional("since", whole(), 0, "a cycle"),
+                       optional("points", whole(1, 10'000), 500, "of the curve, at most")},
+         .result =
+             "{ all: HitShare; last: HitShare; since: HitShare; window: number; curve: { trial: number[]; "
+             "share: number[]; low: number[]; high: number[] } }",
+         .apply = count_hits},
     };
 }
 

@@ -207,6 +207,30 @@ TEST_CASE("a run of some trials pauses at the end of the last of them") {
     CHECK_FALSE(f.session.running());
 }
 
+TEST_CASE("hits are counted among all trials, the last and those since a cycle, also after going back") {
+    Fixture f;
+    f.session.connect(1);
+    f.result({{"command", "speed"}, {"mode", "free"}});
+    CHECK(f.result({{"command", "learning"}})["all"]["share"] == nullptr);
+    f.result({{"command", "run_until"}, {"trials", 4}});
+    for (double now = 100; f.session.running() && now < 1e5; ++now) f.session.work(now);
+    const json all = f.result({{"command", "trials"}})["trials"];
+    REQUIRE(all.size() == 4);
+    const auto third = all[2]["first_cycle"].get<std::uint64_t>();
+    const json learned = f.result({{"command", "learning"}, {"last", 1}, {"since", third}, {"points", 2}});
+    CHECK(learned["all"]["trials"] == 4);
+    CHECK(learned["all"]["hits"] == f.session.status()["trials"]["reached"]);
+    CHECK(learned["last"]["hits"] == (all[3]["reached_target"] == true ? 1 : 0));
+    CHECK(learned["since"]["trials"] == 2);
+    CHECK(learned["curve"]["trial"] == json{2, 4});
+    CHECK(learned["curve"]["share"][1] == learned["all"]["share"]);
+    CHECK(f.result({{"command", "trials"}, {"since", third}, {"count", 1}})["trials"] ==
+          json::array({all[2]}));
+
+    f.result({{"command", "seek"}, {"cycle", third}});
+    CHECK(f.result({{"command", "learning"}})["all"]["trials"] == 2);
+}
+
 TEST_CASE("a run pauses when a condition holds, as that of the command line does") {
     Fixture f;
     f.session.connect(1);

@@ -1,5 +1,5 @@
 // The commands of the server. Made by tests/unit/tools/studio/server/protocol_test.cpp from tools/studio/server/commands.
-import type { DocumentMessage, Driven, EditItem, FilesResult, ItemParameters, LayoutContent, PanelRow, PartSummary, PreviewResult, Problem, RecentFile, ShippedSystem, SynapseTable, Trial, TypesResult, Vocabulary, WorldDocument, WorldKind } from './messages';
+import type { DocumentMessage, Driven, EditItem, FilesResult, HitShare, ItemParameters, LayoutContent, PanelRow, PartSummary, PreviewResult, Problem, RecentFile, ShippedSystem, SynapseTable, Trial, TypesResult, Vocabulary, WorldDocument, WorldKind } from './messages';
 
 export interface Commands {
   /** Starts the run. Returns the groups that modules read although nothing drives them, and the robots, if nothing drives any of them. */
@@ -94,8 +94,13 @@ export interface Commands {
   };
   /** Lists the finished trials; lengths in m, angles in rad. */
   trials: {
-    arguments: { robot?: string | null; from?: number | null };
+    arguments: { robot?: string | null; from?: number | null; since?: number | null; count?: number | null };
     result: { trials: Trial[] };
+  };
+  /** Counts the hits among the finished trials of the first robot, with intervals of 95 %: of all, of the last ones, of those that began in a cycle or later, and in the `window` before each point of the learning curve. */
+  learning: {
+    arguments: { last?: number | null; since?: number | null; points?: number | null };
+    result: { all: HitShare; last: HitShare; since: HitShare; window: number; curve: { trial: number[]; share: number[]; low: number[]; high: number[] } };
   };
   /** Draws a figure of the run, as `forage plot` does from its results. Sources are recorded by repeating the past. Returns the content of the file in base64, the lines of a shell that make the same file, and why they may give another one. */
   figure: {

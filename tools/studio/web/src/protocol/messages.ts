@@ -359,6 +359,8 @@ export interface Trial {
   /** Null when no distance was measured. */
   smallest_distance: number | null;
 }
+/** Hits among trials: their share with its interval; null among none. */
+export type HitShare = { hits: number; trials: number; share: number | null; low: number; high: number };
 /** The manipulation of a group; `times` is null for endlessly. */
 export type Driven = { group: string; mode: 'clamp' | 'add' | 'multiply'; patterns: number[][]; every: number; step: number; times: number | null; backwards: boolean };
 /** A parameter that a panel of the original shows. */

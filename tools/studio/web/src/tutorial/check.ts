@@ -1,6 +1,6 @@
 // The button of an exercise that says in words whether what was seen and answered is right.
 import { readNumber } from '../parts/read_number';
-import { sinceLastChange } from '../draw/trials';
+import { lastChange } from '../draw/trials';
 import { actions } from '../stores/actions.svelte';
 import { run } from '../stores/run.svelte';
 import { request } from '../studio';
@@ -36,9 +36,10 @@ async function find(check: Check, before: Finding | undefined, field: HTMLElemen
     if (!(await holds(when))) return kept ?? { right: null, text: `You said ${said}. Run it until then, and check again.` };
     return findNumber(check, said, await holds(`${quantity} >= ${said - within} and ${quantity} <= ${said + within}`));
   }
-  const { trials } = await request('trials', {});
-  const { change, trials: since } = sinceLastChange(trials, actions.log, run.status?.epoch), reached = since.map((t) => t.reached_target);
+  const change = lastChange(actions.log, run.status?.epoch);
   if (check.lasts) return findLasting(check, (run.status?.seconds ?? 0) * (1 - (change?.cycle ?? 0) / (run.status?.cycle || 1)));
+  const count = asked && 'count' in asked ? asked.count.trials : check.hits!.trials;
+  const reached = (await request('trials', { since: change?.cycle ?? 0, count })).trials.map((t) => t.reached_target);
   return asked && 'count' in asked ? findCount({ ...check, asked }, answer!.number, reached) : findHits(check, reached, change !== undefined);
 }
 

@@ -1,7 +1,6 @@
 import { describe, expect, it } from 'vitest';
 import { findChoice, findCount, findHits, findLasting, findSeen, readAsk, readCheck, untried } from '../../src/tutorial/checks';
-import { sinceLastChange, type Done } from '../../src/draw/trials';
-import type { Trial } from '../../src/protocol/messages';
+import { lastChange, type Done } from '../../src/draw/trials';
 
 const run = (text: string) => [...text].map((c) => c === '+');
 
@@ -69,11 +68,9 @@ describe('a question', () => {
 });
 
 it('trials count from the last change on, in the course of the run that it belongs to', () => {
-  const trials = [0, 100, 200].map((first_cycle) => ({ first_cycle }) as Trial);
   const done = (command: string, cycle: number, epoch: number) => ({ command, cycle, epoch, generation: 1 }) as Done;
-  const counted = (log: Done[], epoch: number) => sinceLastChange(trials, log, epoch).trials.length;
-  expect(counted([], 1)).toBe(3);
-  expect(counted([done('set', 150, 1), done('run_until', 160, 1)], 1)).toBe(1);
-  expect(counted([done('set', 150, 1)], 2)).toBe(3); // stopped since
-  expect(counted([done('set', 0, 1)], 1)).toBe(3);
+  expect(lastChange([], 1)).toBeUndefined();
+  expect(lastChange([done('set', 150, 1), done('run_until', 160, 1)], 1)).toMatchObject({ cycle: 150 });
+  expect(lastChange([done('set', 150, 1)], 2)).toBeUndefined(); // stopped since
+  expect(lastChange([done('set', 0, 1)], 1)).toBeUndefined();
 });

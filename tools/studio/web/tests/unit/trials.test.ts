@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest';
-import { byStart, learningCurve, shareOf } from '../../src/draw/trials';
+import { byStart } from '../../src/draw/trials';
 import type { Trial } from '../../src/protocol/messages';
 
 const trial = (number: number, reached: boolean, start: [number, number, number] = [0, 0, 0]): Trial => ({ number, seconds: 1, first_cycle: 0, cycles: 60, reached_target: reached, start, end: start, smallest_distance: 1 });
@@ -8,13 +8,4 @@ it('trials stand by their starts, and random starts in one row', () => {
   const some = [trial(1, true), trial(2, false, [1, 0, Math.PI / 2]), trial(3, true, [-0.001, 0, 0.02])];
   expect(byStart(some).map((r) => [r.start, r.trials.map((t) => t.number)])).toEqual([['0.0, 0.0 m, 0°', [1, 3]], ['1.0, 0.0 m, 90°', [2]]]);
   expect(byStart(some, 1)).toHaveLength(1);
-});
-
-it('the learning curve is the share of the last trials, with its interval', () => {
-  const curve = learningCurve([trial(1, true), trial(2, false), trial(3, false)], 2);
-  expect(curve.map((c) => c.share)).toEqual([1, 0.5, 0]);
-  const { low, high } = shareOf(15, 17); // of Wilson's score, by hand
-  expect(low).toBeCloseTo(0.6566, 3);
-  expect(high).toBeCloseTo(0.9671, 3);
-  expect(shareOf(0, 0)).toMatchObject({ low: 0, high: 1 });
 });
