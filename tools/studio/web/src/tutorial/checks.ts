@@ -103,7 +103,11 @@ export function findHits({ given, hits }: Check, reached: boolean[], learned = f
     right,
     text: begun(
       given,
-      right ? `${seen}: right, ${expected}.` : `${seen}, but ${expected}. ${learned ? 'These trials begin with what was learned before: press Stop, and run them again.' : 'One run may differ by chance: repeat it with another seed.'}`,
+      right
+        ? `${seen}: right, ${expected}.`
+        : `${seen}, but ${expected}. ${
+          learned ? 'These trials began with what was learned before: if the text does not say so, press Stop, and run them again.' : 'Is all as the text asks for? If so, it may be chance: repeat it with another seed.'
+        }`,
     ),
   };
 }
