@@ -84,7 +84,10 @@ class Dock {
 
   /** The tutorial at the left, or below on a small window. */
   openTutorial(panel: PanelState): void {
-    this.open(panel, frame.small ? { direction: 'below' } : { direction: 'left', width: tutorialWidth(this.api?.width ?? 0) });
+    if (frame.small) return void this.open(panel, { direction: 'below' });
+    const main = this.main, height = main?.group.height;
+    this.open(panel, { direction: 'left', width: tutorialWidth(this.api?.width ?? 0) });
+    if (frame.room === 'narrow') main?.api.setSize({ height });
   }
 
   /** Shows the panels of a kept arrangement. A tutorial that is open stays, at its place in the text. */
@@ -178,13 +181,12 @@ class Dock {
     this.parked = [];
   }
 
-  /** Opens a plot where the other plots are, or beside the diagram, which it does not cover where there is another place. A window without room for columns has it among the tabs. */
+  /** Opens a plot where the other plots are, or beside the diagram, which it does not cover where there is another place. */
   plot(panel: PanelState): string | null {
     const groups = this.api?.groups.filter((g) => g.activePanel && !['diagram', 'tutorial'].includes(kindOf(g.activePanel))) ?? [];
     const last = groups.flatMap((g) => g.panels).filter((p) => isPlot(p.params as PanelState)).pop();
     if (last) return this.open(panel, { beside: last.id, direction: last.api.height > 420 && frame.room === 'wide' ? 'below' : 'within' });
     const diagram = this.api?.panels.find((p) => kindOf(p) === 'diagram' && p.api.isVisible);
-    if (diagram && frame.room !== 'wide') return this.open(panel, { beside: diagram.id });
     if (diagram && diagram.api.width > 600) return this.open(panel, { beside: diagram.id, direction: 'right', width: Math.round(0.4 * diagram.api.width) });
     return this.open(panel, { beside: groups[0]?.activePanel?.id ?? this.main?.id });
   }
