@@ -2,7 +2,7 @@
 import { cssColour, type MapName } from './colours';
 
 let tell = (_name: string): unknown => undefined;
-/** Has each file told by its name. */
+/** Has each file reported by its name. */
 export const tellDownloads = (by: typeof tell): unknown => (tell = by);
 
 export function download(name: string, type: string, content: BlobPart): void {
