@@ -71,12 +71,18 @@ export default async function({ start, open, faults, step }) {
 
   step('Ctrl+K finds panels and actions by other words for them');
   await page.keyboard.press('Control+k');
-  for (
-    const [words, name] of [['learning curve', 'Trials and their learning curve'], ['hits', 'Trials and their learning curve'], ['faster', 'Speed: 20×'], ['reset', 'Stop: back to cycle 0'], ['start again', 'Stop: back to cycle 0'], ['robot', 'Show the arena'], ['graph', 'Plot over time'], ['screenshot', 'Export the figure of Arena'], [
-      'theme',
-      'Switch between light and dark',
-    ]]
-  ) {
+  const meant = {
+    'learning curve': 'Trials and their learning curve',
+    hits: 'Trials and their learning curve',
+    faster: 'Speed: 20×',
+    reset: 'Stop: back to cycle 0',
+    'start again': 'Stop: back to cycle 0',
+    robot: 'Show the arena',
+    graph: 'Plot over time',
+    screenshot: 'Export the figure of Arena',
+    theme: 'Switch between light and dark',
+  };
+  for (const [words, name] of Object.entries(meant)) {
     await page.getByRole('combobox', { name: 'Find' }).fill(words);
     await page.getByRole('option', { name }).waitFor();
   }
