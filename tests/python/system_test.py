@@ -113,6 +113,11 @@ def test_constants():
     system.constants["half"], system["Bug"].constants["half"] = 1, 0.25
     del system["Bug"].constants["half"], system.constants["gain"]
     assert light.params["excGain"] == 1.5 and list(system.constants) == ["half"]
+    constants = system["Bug"].constants
+    system.remove(system["Bug"])
+    for use in (list, repr, lambda c: c["half"], lambda c: c.update(half=1), lambda c: c.pop("half")):
+        with pytest.raises(forage.InputError, match="the process with the id '.*' is not part of its system any more"):
+            use(constants)
 
 
 def test_types_by_equations():

@@ -11,8 +11,12 @@
 namespace forage::python {
 namespace {
 
-std::vector<model::Constant>& constants_of(model::System& system, const std::string& process) {
-    return process.empty() ? system.constants : model::find_process(system, process)->constants;
+/// The constants in `system`, the system of `self` or a copy of it. Throws InputError when their process was
+/// removed.
+std::vector<model::Constant>& constants_of(const SystemConstants& self, model::System& system) {
+    if (self.id.empty()) return system.constants;
+    SystemProcess{self}.use();
+    return model::find_process(system, self.id)->constants;
 }
 
 std::vector<model::Constant>::iterator find(std::vector<model::Constant>& all, const std::string& name) {
@@ -22,7 +26,7 @@ std::vector<model::Constant>::iterator find(std::vector<model::Constant>& all, c
 /// Changes the constants, or nothing when a formula is wrong then.
 void change(const SystemConstants& self, const std::function<void(std::vector<model::Constant>&)>& f) {
     model::System changed = self.system->model;
-    f(constants_of(changed, self.id));
+    f(constants_of(self, changed));
     Diagnostics diagnostics;
     model::compute(changed, diagnostics);
     throw_errors(diagnostics);
@@ -43,14 +47,14 @@ void remove(const SystemConstants& self, const std::string& name) {
 }  // namespace
 
 std::vector<std::string> SystemConstants::names() const {
-    return forage::names_of(constants_of(system->model, id));
+    return forage::names_of(constants_of(*this, system->model));
 }
 
 py::object SystemConstants::get(const std::string& name) const {
     require(*this, name);
     const auto* process = id.empty() ? nullptr : model::find_process(system->model, id);
     const auto value =
-        model::Constants(system->model).value(find(constants_of(system->model, id), name)->value, process);
+        model::Constants(system->model).value(find(constants_of(*this, system->model), name)->value, process);
     return py::cast(value);
 }
 
@@ -77,7 +81,7 @@ group.params["threshold"] = "{1 + lambda}". A value after which a formula has no
             py::arg("name"))
         .def("__repr__", [](const SystemConstants& self) {
             std::string out;
-            for (const auto& c : constants_of(self.system->model, self.id))
+            for (const auto& c : constants_of(self, self.system->model))
                 out += fmt::format("{}{}={}", out.empty() ? "" : ", ", c.name, c.value);
             return fmt::format("<forage.System.Constants: {}>", out);
         });
