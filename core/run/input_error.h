@@ -37,6 +37,12 @@ class FileExists : public InputError {
     using InputError::InputError;
 };
 
+/// Adds `found` to `to`, unless that is null.
+inline void append(Diagnostics* to, const Diagnostics& found) {
+    if (!to) return;
+    for (const auto& d : found.all()) to->add(d);
+}
+
 /// Throws InputError when there is an error among the diagnostics.
 inline void throw_errors(Diagnostics diagnostics) {
     if (diagnostics.failed()) throw InputError(std::move(diagnostics));

@@ -257,7 +257,7 @@ model::Assignment Run::check(std::string_view assignment, Diagnostics* warnings)
     start();
     simulation_->check({&*change, 1}, diagnostics);
     throw_errors(diagnostics);
-    if (warnings) *warnings = std::move(diagnostics);
+    append(warnings, diagnostics);
     return *change;
 }
 

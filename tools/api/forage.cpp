@@ -61,8 +61,7 @@ ExperimentOutcome carried_out(std::optional<PreparedExperiment> prepared, const 
     if (out.results.empty()) return out;
     if (const auto diverged = divergence_summary(out.runs, out.results); !diverged.empty())
         out.warnings.warning({}, diverged);
-    const auto of_runs = warnings_of(out.runs, out.results);
-    for (const auto& d : of_runs.all()) out.warnings.add(d);
+    append(&out.warnings, warnings_of(out.runs, out.results));
     return out;
 }
 
@@ -101,7 +100,7 @@ Run open(const std::string& system, const std::string& text, const OpenOptions& 
                        options, diagnostics);
     out.title = run_title(input);
     out.opened_as = origin_of(system, text, options, input_files(spec, sources), std::move(types));
-    if (warnings) *warnings = std::move(diagnostics);
+    append(warnings, diagnostics);
     return out;
 }
 
@@ -174,7 +173,7 @@ RunPlan plan(model::Experiment wanted, const std::vector<std::string>& plugins, 
     Diagnostics diagnostics;
     auto planned = plan_experiment(std::move(wanted), {}, plugins, diagnostics);
     throw_errors(diagnostics);
-    if (warnings) *warnings = std::move(diagnostics);
+    append(warnings, diagnostics);
     return std::move(planned->runs);
 }
 

@@ -26,7 +26,7 @@ SystemFile make_file(std::optional<model::System> model, std::string path, std::
     equations::add_types(out.model, types, diagnostics);
     out.types = std::make_shared<Registry>(std::move(types));
     throw_errors(diagnostics);
-    if (warnings) *warnings = std::move(diagnostics);
+    append(warnings, diagnostics);
     return out;
 }
 

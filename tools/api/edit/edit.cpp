@@ -102,7 +102,7 @@ json edit_system(const std::string& path, const json& operations, const std::str
     prepare(save_as);
     document.save(save_as == path ? std::string() : save_as, types, true);
     files.keep();
-    for (const auto& warning : files.warnings.all()) warnings.add(warning);
+    append(&warnings, files.warnings);
     add_new_problems(before, document.problems(types), warnings);
     return made;
 }
@@ -119,7 +119,7 @@ std::string edit(SystemFile& file, const std::string& operations, Diagnostics* w
             all, i, [&](const json& o) { return editing::carry_out(o, edited, *file.types, files); }));
     files.keep();
     file.model = std::move(edited);
-    if (warnings) *warnings = std::move(files.warnings);
+    append(warnings, files.warnings);
     return made.dump();
 }
 
@@ -135,7 +135,7 @@ std::string edit_file(const std::string& path, const std::string& operations, co
     if (kind == ".world") return edit_world(path, all, to).dump();
     Diagnostics found;
     auto made = edit_system(path, all, to, plugins, found).dump();
-    if (warnings) *warnings = std::move(found);
+    append(warnings, found);
     return made;
 }
 

@@ -109,7 +109,7 @@ std::string draw(Run& run, const std::string& picture, const std::string& format
                                                 run.seed(), run.title),
                            *file);
     }
-    if (warnings) *warnings = std::move(diagnostics);
+    append(warnings, diagnostics);
     return out;
 } catch (const std::runtime_error& e) {
     if (dynamic_cast<const InputError*>(&e) || dynamic_cast<const engine::RunError*>(&e)) throw;

@@ -1,6 +1,7 @@
 // Systems with their files and types, as other programs use them.
 #include <filesystem>
 
+#include <forage/forage.h>
 #include <forage/system.h>
 
 #include "core/base/output_files.h"
@@ -51,6 +52,26 @@ TEST_CASE("The mistakes of a system that was built have places in its text") {
     CHECK(diagnostics.all()[0].where.file->path == "echo.iqr");
     CHECK(diagnostics.all()[0].where.line > 1);
     CHECK_THROWS_AS(open(file), InputError);
+}
+
+TEST_CASE("Warnings are added to those of earlier calls") {
+    Diagnostics warnings;
+    warnings.warning({}, "earlier");
+    SystemFile file = echo();
+    edit(file, "[]", &warnings);
+    const auto place = test::temporary_path("forage_system_warnings_test");
+    make_directory(place.string());
+    save(file, (place / "echo.iqr").string());
+    edit_file(file.path, "[]", {}, {}, &warnings);
+    read_system(file.path, {}, false, &warnings);
+    parse_system(text_of(file), file.path, {}, &warnings);
+    Run run = open(file, {}, &warnings);
+    run.set("Brain/Ear.probability=2", &warnings);
+    draw(run, "diagram", "svg", 0, &warnings);
+    REQUIRE(warnings.warnings() == 2);
+    CHECK(warnings.all()[0].message == "earlier");
+    CHECK(warnings.all()[1].message == "set 'Brain/Ear.probability=2': outside the usual range 0 to 1");
+    std::filesystem::remove_all(place);
 }
 
 TEST_CASE("A synapse's strength is what it delivers") {
