@@ -87,6 +87,15 @@ void write_results(PreparedRun& p, RunOutcome& outcome) {
 
 }  // namespace
 
+void begin_files(PreparedRun& p) {
+    if (p.spec.directory.empty()) return;
+    ResultFiles files(p.spec.directory);
+    check_regular_file(files.path("run.json"));
+    for (const auto& o : p.run.observers())
+        for (const auto& name : o->file_names()) check_regular_file(files.path(name));
+    for (const auto& o : p.run.observers()) o->begin_files(files);
+}
+
 RunOutcome run_to_end(PreparedRun& p, const RunCallbacks& callbacks) {
     RunOutcome out;
     out.files = ResultFiles(p.spec.directory);

@@ -63,6 +63,10 @@ struct RunCallbacks {
     std::function<void(const std::string&)> diverged = {};
 };
 
+/// Opens the files of a run that is not resumed. Throws std::runtime_error when a file cannot be opened, and
+/// when a folder or a device has the name of a file that the run will write.
+void begin_files(PreparedRun& prepared);
+
 /// Runs until the stop condition holds, a command of remote control ends it, or something stops the run. Then
 /// writes the observers' files and run.json into spec.directory. When one file fails, the others are still
 /// written.

@@ -471,6 +471,14 @@ class Interrupted(Experiment):
         self.forage("experiment", "small.xml", "-o", "out")
         self.assertEqual(self.tables("through"), self.tables("out"))
 
+    def test_a_run_whose_file_cannot_be_written_is_not_begun(self):
+        self.edit("small.xml", "</experiment>", '<record column="P/A=a.csv"/></experiment>')
+        run = self.here / "out/runs/weight-1_seed-1"
+        (run / "a.csv").mkdir(parents=True)
+        done = self.forage("experiment", "small.xml", "-o", "out", status=1)
+        self.assertRegex(done.stderr, "error: run 'weight-1_seed-1': cannot write '.*/a.csv': it is not a file")
+        self.assertEqual([file.name for file in run.iterdir()], ["a.csv"])
+
     def test_numbers_that_are_not_finite_give_one_warning(self):
         self.edit("small.xml", '<sweep', '<seeds count="3"/><set parameter="P/A.vmPrs" value="1e300"/><sweep')
         said = self.forage("experiment", "small.xml", "-o", "out").stderr

@@ -129,7 +129,7 @@ RunOutcome run(const RunSpec& spec, const RunCallbacks& callbacks) {
     auto prepared = prepare(sources, spec, diagnostics);
     if (prepared && !spec.directory.empty()) clear_directory(spec, diagnostics);
     throw_errors(diagnostics);
-    begin(*prepared);
+    begin_files(*prepared);
     return run_to_end(*prepared, callbacks);
 }
 

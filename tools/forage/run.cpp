@@ -25,7 +25,7 @@ int run(const RunOptions& o) {
     if (diagnostics.failed() || !o.quiet) print(stderr, "{}", format(diagnostics));
     if (!prepared || diagnostics.failed()) return bad_input;
     try {
-        begin(*prepared);
+        begin_files(*prepared);
     } catch (const std::exception& e) {
         print(stderr, "error: {}\n  hint: choose another directory for the results with -o\n", e.what());
         return bad_input;

@@ -110,9 +110,7 @@ class Work {
             {
                 const std::lock_guard lock(libraries_);
                 prepared = block_.prepare(run.spec, diagnostics);
-                ResultFiles files(run.spec.directory);
-                if (prepared)
-                    for (const auto& o : prepared->run.observers()) o->begin_files(files);
+                if (prepared) begin_files(*prepared);
             }
             if (!prepared) return failed(first_error(diagnostics));
             return make(run, *prepared, part, table);

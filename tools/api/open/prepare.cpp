@@ -106,13 +106,4 @@ void clear_directory(const RunSpec& spec, Diagnostics& diagnostics) {
                             separated(removed, ", ")));
 }
 
-void begin(PreparedRun& p) {
-    if (p.spec.directory.empty()) return;
-    ResultFiles files(p.spec.directory);
-    check_regular_file(files.path("run.json"));
-    for (const auto& o : p.run.observers())
-        for (const auto& name : o->file_names()) check_regular_file(files.path(name));
-    for (const auto& o : p.run.observers()) o->begin_files(files);
-}
-
 }  // namespace forage
