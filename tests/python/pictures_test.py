@@ -118,7 +118,8 @@ def test_a_film_is_completed_with_its_run(tmp_path):
         film = run.film(tmp_path / "robot.gif")
         run.run(cycles=10)
         twin = copy.copy(run)
-    assert film.closed and (tmp_path / "robot.gif").stat().st_size > 1000
+        assert film.frames == 0
+    assert film.closed and film.frames > 1 and (tmp_path / "robot.gif").stat().st_size > 1000
     twin.run(cycles=10)
     assert [file.name for file in tmp_path.iterdir()] == ["robot.gif"]
 

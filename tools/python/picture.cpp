@@ -9,8 +9,7 @@
 namespace forage::python {
 
 void PythonFilm::close() {
-    if (!complete()) frames = run->finish_film(*film);
-    film = nullptr;
+    if (!complete()) run->finish_film(*film);
 }
 
 py::object plot(PythonRun& run, const std::string& picture, const std::string& format, std::size_t robot) {
@@ -27,9 +26,8 @@ py::object diagram(PythonRun& run, const std::optional<std::string>& process, co
 std::unique_ptr<PythonFilm> film(PythonRun& run, const std::filesystem::path& file,
                                  const std::vector<std::string>& groups) {
     const std::string path = std::filesystem::absolute(file).string();
-    Observer& made = forage::film(run.use(), path, groups);
-    run.add_film(made);
-    return std::make_unique<PythonFilm>(PythonFilm{run.shared_from_this(), &made, path});
+    auto made = run.add_film(forage::film(run.use(), path, groups));
+    return std::make_unique<PythonFilm>(PythonFilm{run.shared_from_this(), std::move(made), path});
 }
 
 void add_pictures(py::module_& module) {
@@ -41,7 +39,9 @@ Notebooks show it when it is closed.)")
              "written.")
         .def_property_readonly("closed", &PythonFilm::complete, "Whether the film is complete.")
         .def_readonly("file", &PythonFilm::file, "The absolute path of the file.")
-        .def_readonly("frames", &PythonFilm::frames, "The number of frames, once close() was called.")
+        .def_property_readonly(
+            "frames", [](const PythonFilm& self) { return self.film->frames; },
+            "The number of frames, once the film is complete.")
         .def("__enter__", [](const py::object& self) { return self; })
         .def("__exit__", [](PythonFilm& self, const py::args&) { self.close(); })
         .def("_repr_html_", html("film"))

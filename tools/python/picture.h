@@ -9,14 +9,13 @@
 
 namespace forage::python {
 
-/// A film that grows while its run runs.
+/// A film of a run.
 struct PythonFilm {
     std::shared_ptr<PythonRun> run;
-    Observer* film;    ///< an observer of the run; null when the film is complete
+    std::shared_ptr<RunFilm> film;
     std::string file;  ///< an absolute path
-    std::size_t frames = 0;
 
-    bool complete() const { return !film || run->closed(); }
+    bool complete() const { return !film->observer || run->closed(); }
     void close();
 };
 

@@ -105,15 +105,20 @@ std::string_view PythonRun::obstacle() const {
 
 void PythonRun::close() {
     if (runner_) throw engine::RunError("this run is running: it cannot be closed");
-    while (!films_.empty()) finish_film(*films_.back());
+    while (!films_.empty()) finish_film(*std::shared_ptr(films_.back()));
     clear();
     run_.reset();
 }
 
-std::size_t PythonRun::finish_film(Observer& film) {
+std::shared_ptr<RunFilm> PythonRun::add_film(Observer& film) {
+    return films_.emplace_back(std::make_shared<RunFilm>(RunFilm{&film}));
+}
+
+void PythonRun::finish_film(RunFilm& film) {
     Run& run = use();
-    std::erase(films_, &film);
-    return forage::finish_film(run, film);
+    std::erase_if(films_, [&](const auto& other) { return other.get() == &film; });
+    film.frames = forage::finish_film(run, *film.observer);
+    film.observer = nullptr;
 }
 
 void PythonRun::on_cycle(py::object callback, std::uint64_t every) {

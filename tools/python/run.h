@@ -15,6 +15,12 @@
 
 namespace forage::python {
 
+/// A film that grows while its run runs.
+struct RunFilm {
+    Observer* observer = nullptr;  ///< an observer of the run; null when the film is complete
+    std::size_t frames = 0;        ///< their number, once the film is complete
+};
+
 /// A run, its callbacks, and the right to use it: one thread at a time runs cycles, while other threads of
 /// Python continue. All functions are called with the GIL.
 class PythonRun : public std::enable_shared_from_this<PythonRun> {
@@ -44,9 +50,9 @@ class PythonRun : public std::enable_shared_from_this<PythonRun> {
     /// Forgets the run. Views of its numbers stay valid.
     void close();
     /// Adds a film, which close() completes.
-    void add_film(Observer& film) { films_.push_back(&film); }
-    /// Completes a film. Returns the number of its frames.
-    std::size_t finish_film(Observer& film);
+    std::shared_ptr<RunFilm> add_film(Observer& film);
+    /// Completes a film.
+    void finish_film(RunFilm& film);
     bool closed() const { return !run_; }
     /// Why use() throws, in words; empty when it does not.
     std::string_view obstacle() const;
@@ -75,8 +81,8 @@ class PythonRun : public std::enable_shared_from_this<PythonRun> {
     bool diverged_ = false;  ///< whether check_finite() has said so
     std::vector<Callback> callbacks_;
     std::map<std::pair<int, int>, py::object> views_;
-    std::vector<Observer*> films_;           ///< those that are not completed
-    std::optional<std::thread::id> runner_;  ///< the thread that is running cycles
+    std::vector<std::shared_ptr<RunFilm>> films_;  ///< those that are not completed
+    std::optional<std::thread::id> runner_;        ///< the thread that is running cycles
 };
 
 }  // namespace forage::python
