@@ -59,13 +59,12 @@ std::vector<std::string> ModuleFiles::file_names() const {
 void ModuleFiles::finish(RunView&, ResultFiles& files) {
     if (directory_.empty()) return;
     for (const auto& f : files_)
-        files.attempt(
-            [&] {
-                write(*f);
-                f->file->close();
-                forage::finish(f->path);
-            },
-            {f->name});
+        files.attempt([&] {
+            write(*f);
+            f->file->close();
+            forage::finish(f->path);
+            files.add(f->name);
+        });
 }
 
 void ModuleFiles::checkpoint(Archive& archive) {

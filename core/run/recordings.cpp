@@ -216,34 +216,36 @@ void Recordings::checkpoint(Archive& archive) {
 
 void Recordings::finish(RunView& run, ResultFiles& files) {
     std::vector<std::string> empty;
-    for (const auto& name : file_names()) files.attempt([] {}, {name});
-    for (const auto& e : entries_) files.add_recording(e);
-    const auto attempt = [&](const auto& action) { files.attempt(action); };
+    const auto complete = [&](const File& f) { forage::finish(f.path), files.add(f.file.name); };
     std::map<std::string, std::vector<std::pair<std::string, std::string>>> archives;
     for (auto& f : all_) {
         const auto first = options_.from + (options_.mean ? f.file.every - 1 : 0);  // when a row is complete
         if (first >= run.time.cycle || (options_.until && first > *options_.until))
             for (const auto& s : f.file.sources) empty.push_back(s.what().name);
-        attempt([&] { f.recorder->close(); });
+        files.attempt([&] { f.recorder->close(); });
         // Its rows are complete in any case.
         if (f.file.archive.empty())
-            attempt([&] { forage::finish(f.path); });
+            files.attempt([&] { complete(f); });
         else
             archives[f.file.archive].emplace_back(f.header.sources.front().name, partial(f.path));
     }
     for (const auto& [name, arrays] : archives)
-        attempt([&, &name = name, &arrays = arrays] {
+        files.attempt([&, &name = name, &arrays = arrays] {
             const std::string path = directory_ + "/" + name;
             try {
                 observe::join_npz(path, arrays);
             } catch (const std::exception& e) {  // the disk may be full, and the arrays are complete
                 for (const auto& f : all_)
-                    if (f.file.archive == name) forage::finish(f.path);
+                    if (f.file.archive == name) complete(f);
                 throw std::runtime_error(fmt::format("{}; its arrays are in files of their own, such as '{}'",
                                                      e.what(), arrays.front().first));
             }
             for (const auto& [array, file] : arrays) std::remove(file.c_str());
+            files.add(name);
         });
+    const auto written = files.names();
+    for (const auto& e : entries_)
+        if (std::ranges::find(written, e.file) != written.end()) files.add_recording(e);
     if (empty.empty()) return;
     files.warn(
         fmt::format("no row was recorded of '{}': the run had {} cycles", separated(empty, "', '"),

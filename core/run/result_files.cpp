@@ -7,15 +7,18 @@
 namespace forage {
 
 void ResultFiles::write(const std::string& name, const std::function<std::string()>& content) {
-    if (name == kept_name_) kept_ = content();
-    if (directory_.empty()) return;
-    attempt([&] { write_result(path(name), name == kept_name_ ? kept_ : content()); }, {name});
+    const bool keep = name == kept_name_;
+    if (directory_.empty() && !keep) return;
+    attempt([&] {
+        auto text = content();
+        if (!directory_.empty()) write_result(path(name), text), add(name);
+        if (keep) kept_ = std::move(text);
+    });
 }
 
-void ResultFiles::attempt(const std::function<void()>& action, const std::vector<std::string>& names) {
+void ResultFiles::attempt(const std::function<void()>& action) {
     try {
         action();
-        names_.insert(names_.end(), names.begin(), names.end());
     } catch (const std::exception& e) {
         problems_.emplace_back(e.what());
     }

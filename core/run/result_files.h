@@ -29,9 +29,10 @@ class ResultFiles {
 
     /// Writes content() to the file `name`. A failure is added to problems().
     void write(const std::string& name, const std::function<std::string()>& content);
-    /// Calls action(), which writes the files `names`. A failure is added to problems(), and the files are
-    /// not added to names().
-    void attempt(const std::function<void()>& action, const std::vector<std::string>& names = {});
+    /// Calls action(), which writes files and adds each of them. A failure is added to problems().
+    void attempt(const std::function<void()>& action);
+    /// Adds a file that was written to names().
+    void add(std::string name) { names_.push_back(std::move(name)); }
 
     /// A recording file and its content, for run.json.
     struct Recording {
