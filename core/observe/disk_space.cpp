@@ -21,7 +21,7 @@ DiskSpace::~DiskSpace() {
     close(file_);
 }
 
-void DiskSpace::ahead(std::uint64_t bytes) {
+void DiskSpace::reserve(std::uint64_t bytes) {
     struct stat now {};
     if (file_ < 0 || fstat(file_, &now) != 0) return;
     rlimit most{};

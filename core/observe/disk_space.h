@@ -18,7 +18,7 @@ class DiskSpace {
 
     /// Reserves `bytes` after the current end of the file. Throws std::runtime_error with the reason when
     /// there is not enough space.
-    void ahead(std::uint64_t bytes);
+    void reserve(std::uint64_t bytes);
 
   private:
     int file_;

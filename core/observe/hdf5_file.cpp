@@ -114,7 +114,7 @@ class Hdf5File final : public RowFile {
     void reserve(std::size_t rows) {
         std::uint64_t row = 1;
         for (const auto& s : sets_) row += s.size;
-        space_->ahead(8 * row * (rows + 2 * chunk_) + index_space * (1 + sets_.size()));
+        space_->reserve(8 * row * (rows + 2 * chunk_) + index_space * (1 + sets_.size()));
     }
 
     bool end() {

@@ -12,7 +12,7 @@ void write_hdf5_table(const std::string& path, std::span<const TableColumn> colu
     const Records records(columns, rows, false);
     Hdf5Handle file = create_hdf5(path);
     DiskSpace space(path);
-    space.ahead(records.size * (rows + records.rows_of_a_block()) + (1 << 20));
+    space.reserve(records.size * (rows + records.rows_of_a_block()) + (1 << 20));
     const Hdf5Handle type(H5Tcreate(H5T_COMPOUND, records.size), H5Tclose, "make a type");
     for (const auto& field : records.fields) {
         const Hdf5Handle text = hdf5_text(field.size);

@@ -361,7 +361,7 @@ std::string activity_table(const Layout& layout, const observe::GroupStatistics&
 
 std::vector<std::string> explanation(const PreparedRun& prepared) {
     const Run& run = prepared.run;
-    auto out = prepared.commands();
+    auto out = prepared.motor_report();
     for (auto& undriven : undriven_robots(run)) out.push_back(std::move(undriven.text));
     std::set<int> manipulated;
     for (const auto& o : run.observers())

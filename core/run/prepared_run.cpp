@@ -41,11 +41,11 @@ std::string loop(PreparedRun& p, const RunCallbacks& callbacks) {
         if (!why.empty() && p.checkpoints) p.checkpoints->write(run);
         return why;
     };
-    if (p.remote) p.remote->tell = callbacks.commanded;
+    if (p.remote) p.remote->log = callbacks.commanded;
     while (!p.stop.reached(run)) {
         if (p.remote) {
-            p.remote->obey(run);
-            for (; p.remote->paused() && !p.remote->quit(); p.remote->obey(run)) {
+            p.remote->execute_pending(run);
+            for (; p.remote->paused() && !p.remote->quit(); p.remote->execute_pending(run)) {
                 if (auto why = interruption(); !why.empty()) return why;
                 p.remote->wait();
             }

@@ -32,7 +32,7 @@ struct PreparedRun {
     RemoteControl* remote = nullptr;                       ///< null in a run without remote control
     const observe::GroupStatistics* statistics = nullptr;  ///< null unless the spec asks for an explanation
     /// Returns sentences on what drove the robots, after the run; empty like `statistics`.
-    std::function<std::vector<std::string>()> commands = [] { return std::vector<std::string>(); };
+    std::function<std::vector<std::string>()> motor_report = [] { return std::vector<std::string>(); };
     std::vector<std::string> plugins = {};  ///< paths of the loaded files
     InputFiles inputs = {};                 ///< what a run of the command line has read
     FileTexts module_texts = {};            ///< for a bundle: files of modules, which may write them

@@ -140,23 +140,23 @@ bool RemoteControl::may_act() {
                        tokens_ + max_per_second * std::chrono::duration<double>(now - filled_).count());
     filled_ = now;
     if (tokens_ < 1) {
-        complain(dropped_,
-                 fmt::format("a datagram is dropped: at most {} a second are read", max_per_second));
+        log_rejected(dropped_,
+                     fmt::format("a datagram is dropped: at most {} a second are read", max_per_second));
         return false;
     }
     tokens_ -= 1;
     return true;
 }
 
-/// Tells about one more datagram of a kind.
-void RemoteControl::complain(std::uint64_t& count, const std::string& line) const {
+/// Logs one more datagram of a kind.
+void RemoteControl::log_rejected(std::uint64_t& count, const std::string& line) const {
     std::uint64_t power = ++count;
     while (power % 10 == 0) power /= 10;
-    if (!tell || (count > 10 && power != 1)) return;
-    tell(count < 10 ? line : fmt::format("{} ({} datagrams so far)", line, count));
+    if (!log || (count > 10 && power != 1)) return;
+    log(count < 10 ? line : fmt::format("{} ({} datagrams so far)", line, count));
 }
 
-void RemoteControl::obey(Run& run) {
+void RemoteControl::execute_pending(Run& run) {
     for (int i = 0; i < max_per_cycle; ++i) {
         const auto datagram = socket_.receive(longest_remote_command + 1);
         if (!datagram) return;
@@ -164,7 +164,7 @@ void RemoteControl::obey(Run& run) {
         std::string problem;
         const auto command = parse_remote_command(*datagram, problem);
         if (!command) {
-            complain(refused_, "a datagram is not a command: " + problem);
+            log_rejected(refused_, "a datagram is not a command: " + problem);
             continue;
         }
         const std::string text(datagram->substr(0, datagram->find_first_of(std::string_view("\r\n\0", 3))));
@@ -176,14 +176,14 @@ void RemoteControl::obey(Run& run) {
         }
         if (diagnostics.failed()) {
             const auto first = std::ranges::find(diagnostics.all(), Severity::error, &Diagnostic::severity);
-            complain(refused_, fmt::format("refused {}: {}", text, first->message));
+            log_rejected(refused_, fmt::format("refused {}: {}", text, first->message));
             continue;
         }
-        if (obeyed_.size() == max_kept) continue;
-        obeyed_.push_back({run.cycle(), text});
-        if (!tell) continue;
-        tell(fmt::format("cycle {}: {}", run.cycle(), text));
-        for (const auto& d : diagnostics.all()) tell(fmt::format("{}: {}", text, d.message));
+        if (executed_.size() == max_kept) continue;
+        executed_.push_back({run.cycle(), text});
+        if (!log) continue;
+        log(fmt::format("cycle {}: {}", run.cycle(), text));
+        for (const auto& d : diagnostics.all()) log(fmt::format("{}: {}", text, d.message));
     }
 }
 

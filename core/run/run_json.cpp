@@ -100,7 +100,7 @@ std::string run_json(const PreparedRun& p, const RunOutcome& outcome) {
     for (const auto& e : p.schedule->entries())
         result["changes"].push_back({{"at", e.text}, {"cycle", e.cycle ? Json(*e.cycle) : Json()}});
     if (p.remote)
-        for (const auto& c : p.remote->obeyed())
+        for (const auto& c : p.remote->executed())
             result["commands"].push_back({{"cycle", c.cycle}, {"command", c.text}});
     if (const auto* environment = run.environment()) {
         const auto names = environment->robot_names();

@@ -56,8 +56,8 @@ std::string summary(const PreparedRun& p, const RunOutcome& outcome, bool resuma
     if (const std::string& until = p.spec.length.until.text; !until.empty())
         line("until", p.stop.holds(run) ? fmt::format("{}: it held after cycle {}", until, run.cycle())
                                         : until + ": it never held");
-    if (p.remote && !p.remote->obeyed().empty())
-        line("commands", fmt::format("{}{}", p.remote->obeyed().size(),
+    if (p.remote && !p.remote->executed().empty())
+        line("commands", fmt::format("{}{}", p.remote->executed().size(),
                                      p.remote->quit()
                                          ? fmt::format("; cmd:quit ended the run after cycle {}", run.cycle())
                                          : ""));

@@ -66,9 +66,10 @@ void add_statistics(Preparation& p) {
     if (!p.spec().explain) return;
     p.prepared.statistics = &p.run().add(std::make_unique<observe::GroupStatistics>(p.run().layout()));
     if (p.world)
-        p.prepared.commands = [motors = &p.run().add(std::make_unique<MotorStatistics>(p.run(), *p.world))] {
-            return motors->sentences();
-        };
+        p.prepared.motor_report =
+            [motors = &p.run().add(std::make_unique<MotorStatistics>(p.run(), *p.world))] {
+                return motors->sentences();
+            };
 }
 
 void add_plots(Preparation& p) {

@@ -18,8 +18,8 @@ TEST_CASE("Looking for a command does not allocate memory") {
     REQUIRE(run);
     auto& remote = run->add(std::make_unique<RemoteControl>(Endpoint{}));
     run->step();
-    remote.obey(*run);
+    remote.execute_pending(*run);
     const std::size_t before = test::allocations();
-    for (int i = 0; i < 100; ++i) remote.obey(*run);
+    for (int i = 0; i < 100; ++i) remote.execute_pending(*run);
     CHECK(test::allocations() == before);
 }

@@ -106,28 +106,28 @@ TEST_CASE("A command changes every item of its name between two cycles, or none 
     REQUIRE(run);
     std::vector<std::string> lines;
     auto& remote = run->add(std::make_unique<RemoteControl>(Endpoint{}));
-    remote.tell = [&](const std::string& line) { lines.push_back(line); };
+    remote.log = [&](const std::string& line) { lines.push_back(line); };
     auto sender = UdpSocket::connect(*parse_endpoint(remote.address()));
-    const auto obey = [&](std::string_view text) {
+    const auto execute = [&](std::string_view text) {
         sender.send(text);
         remote.wait();
-        remote.obey(*run);
+        remote.execute_pending(*run);
     };
     run->step();
-    obey("cmd:param;itemType:GROUP;itemName:A;paramName:probability;value:0.25");
+    execute("cmd:param;itemType:GROUP;itemName:A;paramName:probability;value:0.25");
     CHECK(run->parameter("P/A.probability") == ParameterValue(0.25));
     CHECK(run->parameter("Q/A.probability") == ParameterValue(0.25));
     CHECK(run->parameter("P/B.probability") == ParameterValue(1.0));
-    obey("cmd:param;itemType:GROUP;itemName:A;paramName:threshold;value:0.25");  // Q/A has none
+    execute("cmd:param;itemType:GROUP;itemName:A;paramName:threshold;value:0.25");  // Q/A has none
     CHECK(run->parameter("P/A.threshold") == ParameterValue(0.0));
-    obey("cmd:param;itemType:NEURON;itemID:" + b + ";paramID:Threshold potential;value:0.75;");
+    execute("cmd:param;itemType:NEURON;itemID:" + b + ";paramID:Threshold potential;value:0.75;");
     CHECK(run->parameter("P/B.threshold") == ParameterValue(0.75));
-    obey("cmd:param;itemType:GROUP;itemName:A;paramName:probability;value:much");
-    obey("cmd:param;itemType:GROUP;itemName:C;paramName:probability;value:1");
-    obey("cmd:startsampler");
-    obey("nonsense");
-    REQUIRE(remote.obeyed().size() == 2);
-    CHECK(remote.obeyed()[0].cycle == 1);
+    execute("cmd:param;itemType:GROUP;itemName:A;paramName:probability;value:much");
+    execute("cmd:param;itemType:GROUP;itemName:C;paramName:probability;value:1");
+    execute("cmd:startsampler");
+    execute("nonsense");
+    REQUIRE(remote.executed().size() == 2);
+    CHECK(remote.executed()[0].cycle == 1);
     CAPTURE(lines);
     REQUIRE(lines.size() == 7);
     CHECK(lines[0] == "cycle 1: cmd:param;itemType:GROUP;itemName:A;paramName:probability;value:0.25");
@@ -136,11 +136,11 @@ TEST_CASE("A command changes every item of its name between two cycles, or none 
     CHECK(lines[4].ends_with(": nothing of this type is called 'C'"));
     CHECK(lines[5] == "refused cmd:startsampler: this run records nothing; --record says what");
     CHECK(lines[6] == "a datagram is not a command: 'nonsense' has no ':'");
-    obey("cmd:stop");
+    execute("cmd:stop");
     CHECK(remote.paused());
-    obey("cmd:start");
+    execute("cmd:start");
     CHECK_FALSE(remote.paused());
-    obey("cmd:quit");
+    execute("cmd:quit");
     CHECK(remote.quit());
 }
 
@@ -157,7 +157,7 @@ struct Remote {
         run = Run::make(system, registry, nullptr, {}, diagnostics);
         REQUIRE(run);
         control = &run->add(std::make_unique<RemoteControl>(Endpoint{}));
-        control->tell = [this](const std::string& line) { lines.push_back(line); };
+        control->log = [this](const std::string& line) { lines.push_back(line); };
         run->step();
     }
     std::optional<Run> run;
@@ -173,7 +173,7 @@ TEST_CASE("Garbage is reported ten times, then at the 100th datagram, the 1000th
     const std::string refused = "cmd:param;itemType:GROUP;itemName:B;paramName:x;value:";
     for (int i = 0; i < 3000; ++i) {
         sender.send(i % 2 ? "\x1b[2J" : refused + std::to_string(i));
-        if (i % 25 == 0) here.control->obey(*here.run);
+        if (i % 25 == 0) here.control->execute_pending(*here.run);
     }
     CAPTURE(here.lines);
     const auto dropped = std::ranges::count_if(
@@ -190,9 +190,9 @@ TEST_CASE("More than a hundred commands at once are dropped") {
     auto sender = UdpSocket::connect(*parse_endpoint(remote.address()));
     for (int i = 0; i < 10000; ++i) {
         sender.send("cmd:start");
-        if (i % 50 == 0) remote.obey(*run);
+        if (i % 50 == 0) remote.execute_pending(*run);
     }
     // The allowance grows by 100 a second; on a machine that takes seconds for this loop, more commands fit.
-    CHECK(remote.obeyed().size() >= 100);
-    CHECK(remote.obeyed().size() < 1000);
+    CHECK(remote.executed().size() >= 100);
+    CHECK(remote.executed().size() < 1000);
 }
