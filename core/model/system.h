@@ -256,10 +256,12 @@ struct System {
     friend bool operator==(const System&, const System&) = default;
 };
 
-/// The time of a cycle, s. A system that runs as fast as possible has cycles of 1/25 s.
-inline double seconds_per_cycle(const System& s) {
-    return 1 / (s.cycles_per_second > 0 ? s.cycles_per_second : 25);
+/// The cycles in a second of the system's time, Hz. A system that runs as fast as possible has 25.
+inline double cycles_per_second(const System& s) {
+    return s.cycles_per_second > 0 ? s.cycles_per_second : 25;
 }
+/// The time of a cycle, s.
+inline double seconds_per_cycle(const System& s) { return 1 / cycles_per_second(s); }
 
 /// The content of an .iqrProcess file: a process with the connections among its groups and the types that
 /// it uses. Processes that it links follow the first one.

@@ -30,8 +30,7 @@ Json settings_json(const RunSpec& o, const Run& run, const std::vector<std::stri
     json["compiler"] = __VERSION__;
     json["system"] = input_file(o.input.system);
     json["system"]["name"] = run.system().name;
-    json["system"]["cycles_per_second"] =
-        run.system().cycles_per_second > 0 ? run.system().cycles_per_second : 25;
+    json["system"]["cycles_per_second"] = model::cycles_per_second(run.system());
     for (const auto& path : o.input.more) json["more_systems"].push_back(input_file(path));
     if (const auto* environment = run.environment()) {
         json["world"] = input_file(o.input.world);

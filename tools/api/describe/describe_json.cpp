@@ -209,12 +209,11 @@ json describe_system(const model::System& system, const Registry& registry, cons
              {"fixed_weights", type && type->has_gain && std::holds_alternative<model::Weights>(c.pattern)},
              {"line", line_of(c.line)}});
     }
-    const double rate = system.cycles_per_second > 0 ? system.cycles_per_second : 25;
     return {{"type", "system"},
             {"name", said.name},
             {"note", said.notes},
             {"cycles_per_second", said.cycles_per_second},
-            {"seconds_per_cycle", run ? run->seconds_per_cycle() : 1 / rate},
+            {"seconds_per_cycle", run ? run->seconds_per_cycle() : model::seconds_per_cycle(system)},
             {"comments", comments_of(system.canvas_comments)},
             {"processes", std::move(processes)},
             {"connections", std::move(links)}};

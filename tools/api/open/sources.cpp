@@ -340,7 +340,7 @@ std::optional<Loaded> assemble(const Sources& sources, const RunInput& input, Di
     if (sources.world) {  // after the settings, which may change the rate
         bug::WorldOptions options;
         options.seed = input.seed;
-        options.cycles_per_second = out.system.cycles_per_second > 0 ? out.system.cycles_per_second : 25;
+        options.cycles_per_second = model::cycles_per_second(out.system);
         options.real_time_factor = input.real_time_factor;
         options.noise = input.noise;
         options.sensor_rates = input.sensor_rates;
