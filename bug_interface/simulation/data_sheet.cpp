@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "bug_interface/simulation/world_queries.h"
+#include "core/base/number.h"
 
 namespace forage::bug {
 namespace {
@@ -32,12 +33,12 @@ std::string body_section(const World& world, std::size_t robot) {
     const Robot& r = world.robot(robot);
     std::string out = "## Body\n\n" + head({"", ""});
     const Link& link = *robot_link(*find_model(world.description(), r.name));
-    for (const Collision& c : link.collisions) {
+    if (!link.collisions.empty()) {
+        const Collision& c = link.collisions.front();
         const double middle = (link.pose * c.pose).translation().z(), half = c.shape.size.z() / 2;
         out += row(
             {"shape", fmt::format("upright cylinder, radius {} m, {} to {} m above the floor",
                                   rounded(r.body.radius), rounded(middle - half), rounded(middle + half))});
-        break;
     }
     out += row({"mass", rounded(r.body.mass) + " kg"});
     out += row({"moment of inertia", rounded(r.body.inertia) + " kg m²"});
@@ -170,15 +171,6 @@ std::string camera_section(const World& world, const RobotSensors& sensors) {
 }
 
 }  // namespace
-
-std::string rounded(double v, int decimals) {
-    std::string out = fmt::format("{:.{}f}", v, decimals);
-    if (out.find('.') != std::string::npos) {
-        out.erase(out.find_last_not_of('0') + 1);
-        if (out.ends_with('.')) out.pop_back();
-    }
-    return out == "-0" ? "0" : out;
-}
 
 std::string data_sheet(const World& world, std::size_t robot) {
     const RobotSensors& sensors = world.robot(robot).sensors;

@@ -7,9 +7,6 @@
 
 namespace forage::bug {
 
-/// A number with at most `decimals` decimals.
-std::string rounded(double v, int decimals = 4);
-
 /// The data sheet of a robot of a world, in Markdown: body, motor cells, range sensors with the angle of
 /// every cell, camera, gripper. All numbers are those with which the robot is simulated.
 std::string data_sheet(const World& world, std::size_t robot);

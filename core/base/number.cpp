@@ -27,6 +27,15 @@ std::string plain_number(double value, int digits) {
     return whole ? fmt::format("{:.0f}", value) : fmt::format("{:.{}g}", value, digits);
 }
 
+std::string rounded(double value, int decimals) {
+    std::string out = fmt::format("{:.{}f}", value, decimals);
+    if (out.find('.') != std::string::npos) {
+        out.erase(out.find_last_not_of('0') + 1);
+        if (out.ends_with('.')) out.pop_back();
+    }
+    return out == "-0" ? "0" : out;
+}
+
 std::string duration_text(double seconds) {
     constexpr double minute = 60, hour = 60 * minute, day = 24 * hour, year = 365 * day;
     if (seconds < 100) return fmt::format("{:.0f} s", seconds);

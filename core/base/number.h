@@ -60,6 +60,9 @@ std::string no_number(std::string_view word);
 /// exponent (but from 1e15 on, and below 0.0001).
 std::string plain_number(double value, int digits);
 
+/// The number with at most this many decimals, without zeros at its end.
+std::string rounded(double value, int decimals = 4);
+
 /// A length of time in words, rounded to one unit: "42 s", "7 min", "3 hours", "12 days", "5 years".
 std::string duration_text(double seconds);
 

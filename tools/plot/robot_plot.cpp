@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "bug_interface/simulation/data_sheet.h"
 #include "bug_interface/simulation/world_queries.h"
+#include "core/base/number.h"
 #include "tools/plot/axes.h"
 #include "tools/plot/world_map.h"
 
@@ -19,7 +19,7 @@ constexpr Colour body_colour{0.80, 0.84, 0.90}, body_edge{0.25, 0.32, 0.45}, cam
     gripper_ray{0.35, 0.60, 0.30};
 constexpr double small = 11;
 
-std::string short_number(double v) { return bug::rounded(v, 2); }
+std::string short_number(double v) { return rounded(v, 2); }
 
 Colour colour_of(const bug::RangeSensor& s) {
     return s.name == "laser_target" ? light_ray : s.name == "laser_gripper" ? gripper_ray : near_ray;
@@ -80,7 +80,7 @@ void draw_rays(Canvas& canvas, const Box& box, const bug::RobotSensors& sensors,
     for (const auto& s : sensors.range_sensors()) {
         canvas.line(box.x, legend - 4, box.x + 24, legend - 4, colour_of(s), 3);
         canvas.text(box.x + 32, legend,
-                    fmt::format("{}: {} to {} m", name_of(s), bug::rounded(s.min_range, 4),
+                    fmt::format("{}: {} to {} m", name_of(s), rounded(s.min_range, 4),
                                 short_number(s.max_range)),
                     small);
         legend += 16;
@@ -200,7 +200,7 @@ void draw_side(Canvas& canvas, const Box& box, const bug::World& world, std::siz
         canvas.fill(camera_colour, 0.18);
         canvas.circle(px(eye.x()), py(eye.z()), 3.5);
         canvas.fill(camera_colour);
-        canvas.text(px(eye.x()) - 6, py(eye.z()) - 7, fmt::format("camera {} m", bug::rounded(eye.z(), 3)),
+        canvas.text(px(eye.x()) - 6, py(eye.z()) - 7, fmt::format("camera {} m", rounded(eye.z(), 3)),
                     small, 1, camera_colour);
         for (const double x : {seen.left.front().x(), seen.far})
             if (x < right_end) {
@@ -215,7 +215,7 @@ void draw_side(Canvas& canvas, const Box& box, const bug::World& world, std::siz
         const double end = std::min(at.x() + s.max_range, right_end);
         canvas.line(px(at.x() + s.min_range), py(at.z()), px(end), py(at.z()), colour_of(s), 2.2);
         canvas.text(px(right_end), py(at.z()) - 4,
-                    fmt::format("{} {} m", name_of(s), bug::rounded(at.z(), 3)), small, 1, black);
+                    fmt::format("{} {} m", name_of(s), rounded(at.z(), 3)), small, 1, black);
     }
 }
 

@@ -46,6 +46,14 @@ TEST_CASE("Numbers for readers have no exponent") {
     CHECK(plain_number(-9999.6, 4) == "-10000");
 }
 
+TEST_CASE("Rounded numbers have no zeros at their end") {
+    CHECK(rounded(0.12345) == "0.1235");
+    CHECK(rounded(2.5, 3) == "2.5");
+    CHECK(rounded(100) == "100");
+    CHECK(rounded(120, 0) == "120");
+    CHECK(rounded(-0.00001) == "0");
+}
+
 TEST_CASE("A length of time is given in one unit") {
     CHECK(duration_text(0.4) == "0 s");
     CHECK(duration_text(99) == "99 s");
