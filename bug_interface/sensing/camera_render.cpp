@@ -154,8 +154,8 @@ bool Camera::meet_solids(std::size_t block, Samples& samples) const {
     bool any = false;
     for (const Window& w : windows_)
         if (meets(w, block))
-            any = true, meet(w.solid, rays_of(block), w.first_face,
-                             {samples.depth.data(), samples.entry.data(), samples.face.data()});
+            any = true, intersect(w.solid, rays_of(block), w.first_face,
+                                  {samples.depth.data(), samples.entry.data(), samples.face.data()});
     return any;
 }
 
@@ -265,8 +265,8 @@ std::size_t Camera::full_face(const Window& w, std::size_t first_block, std::siz
         depth[i] = far_ * safely, face[i] = 0;
         for (const FloorPoints& floor : floor_points_) depth[i] = std::min(depth[i], floor.depth[k] * safely);
     }
-    meet(w.solid, {x.data(), y.data(), z.data(), x.size()}, w.first_face,
-         {depth.data(), entry.data(), face.data()});
+    intersect(w.solid, {x.data(), y.data(), z.data(), x.size()}, w.first_face,
+              {depth.data(), entry.data(), face.data()});
     least = depth[0];
     for (std::size_t i = 1; i < 4; ++i) {
         if (face[i] != face[0]) return 0;

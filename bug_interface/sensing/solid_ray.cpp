@@ -13,7 +13,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// The intervals of four rays inside the intersection of slabs and round shapes; empty when leave < enter.
-struct Inside {
+struct RayInterval {
     Four enter = four(-infinity), leave = four(infinity), face = four(Nearest::curved);
 
     /// Intersects with the slab |x_axis| <= half.
@@ -45,57 +45,60 @@ struct Inside {
     }
 };
 
-/// Finds the entries into a solid: `intersect` gets the directions of four rays in the frame of the solid.
+/// Finds the entries into a solid: `narrow` gets the directions of four rays in the frame of the solid.
 /// Those that are nearer than the nearest ones so far are kept.
-template <class Intersect>
-[[gnu::always_inline]] inline void meet_all(const SolidInView& f, const Rays& rays, double first_face,
-                                            const Nearest& nearest, Intersect intersect) {
+template <class Narrow>
+[[gnu::always_inline]] inline void intersect_each(const SolidInView& f, const Rays& rays, double first_face,
+                                                  const Nearest& nearest, Narrow narrow) {
     const double* t = f.turn;
     for (std::size_t i = 0; i < rays.count; i += 4) {
         const Four a = load(rays.x + i), b = load(rays.y + i), c = load(rays.z + i);
-        Inside inside;
-        intersect(inside, t[0] * a + t[1] * b + t[2] * c, t[3] * a + t[4] * b + t[5] * c,
-                  t[6] * a + t[7] * b + t[8] * c);
+        RayInterval interval;
+        narrow(interval, t[0] * a + t[1] * b + t[2] * c, t[3] * a + t[4] * b + t[5] * c,
+               t[6] * a + t[7] * b + t[8] * c);
         const Four depth = load(nearest.depth + i), entry = load(nearest.entry + i),
                    face = load(nearest.face + i);
-        const auto nearer = (inside.enter > 0) & (inside.enter <= inside.leave) & (inside.enter < depth);
-        store(nearer ? rounded_to_single(inside.enter) : depth, nearest.depth + i);
-        store(nearer ? inside.enter : entry, nearest.entry + i);
-        store(nearer ? first_face + inside.face : face, nearest.face + i);
+        const auto nearer =
+            (interval.enter > 0) & (interval.enter <= interval.leave) & (interval.enter < depth);
+        store(nearer ? rounded_to_single(interval.enter) : depth, nearest.depth + i);
+        store(nearer ? interval.enter : entry, nearest.entry + i);
+        store(nearer ? first_face + interval.face : face, nearest.face + i);
     }
 }
 
-FORAGE_SIMD void meet_box(const SolidInView& f, const Rays& rays, double first_face, const Nearest& nearest) {
-    meet_all(
+FORAGE_SIMD void intersect_box(const SolidInView& f, const Rays& rays, double first_face,
+                               const Nearest& nearest) {
+    intersect_each(
         f, rays, first_face, nearest,
-        [&](Inside & inside, const Four& x, const Four& y, const Four& z) __attribute__((always_inline)) {
-            inside.slab(0, f.origin[0], x, f.half[0]);
-            inside.slab(1, f.origin[1], y, f.half[1]);
-            inside.slab(2, f.origin[2], z, f.half[2]);
-        });
+        [&](RayInterval & interval, const Four& x, const Four& y, const Four& z)
+            __attribute__((always_inline)) {
+                interval.slab(0, f.origin[0], x, f.half[0]);
+                interval.slab(1, f.origin[1], y, f.half[1]);
+                interval.slab(2, f.origin[2], z, f.half[2]);
+            });
 }
 
-FORAGE_SIMD void meet_cylinder(const SolidInView& f, const Rays& rays, double first_face,
-                               const Nearest& nearest) {
+FORAGE_SIMD void intersect_cylinder(const SolidInView& f, const Rays& rays, double first_face,
+                                    const Nearest& nearest) {
     const Four x0 = four(f.origin[0]), y0 = four(f.origin[1]), radius = four(f.half[0]),
                rest = x0 * x0 + y0 * y0 - radius * radius;
-    meet_all(
+    intersect_each(
         f, rays, first_face, nearest,
-        [&](Inside & inside, const Four& x, const Four& y, const Four& z) __attribute__((always_inline)) {
-            inside.round(x * x + y * y, x0 * x + y0 * y, rest);
-            inside.slab(2, f.origin[2], z, f.half[2]);
-        });
+        [&](RayInterval & interval, const Four& x, const Four& y, const Four& z)
+            __attribute__((always_inline)) {
+                interval.round(x * x + y * y, x0 * x + y0 * y, rest);
+                interval.slab(2, f.origin[2], z, f.half[2]);
+            });
 }
 
-FORAGE_SIMD void meet_sphere(const SolidInView& f, const Rays& rays, double first_face,
-                             const Nearest& nearest) {
+FORAGE_SIMD void intersect_sphere(const SolidInView& f, const Rays& rays, double first_face,
+                                  const Nearest& nearest) {
     const Four x0 = four(f.origin[0]), y0 = four(f.origin[1]), z0 = four(f.origin[2]),
                radius = four(f.half[0]), rest = x0 * x0 + y0 * y0 + z0 * z0 - radius * radius;
-    meet_all(
+    intersect_each(
         f, rays, first_face, nearest,
-        [&](Inside & inside, const Four& x, const Four& y, const Four& z) __attribute__((always_inline)) {
-            inside.round(x * x + y * y + z * z, x0 * x + y0 * y + z0 * z, rest);
-        });
+        [&](RayInterval & interval, const Four& x, const Four& y, const Four& z) __attribute__((
+            always_inline)) { interval.round(x * x + y * y + z * z, x0 * x + y0 * y + z0 * z, rest); });
 }
 
 /// A row of a matrix times a vector, summed as Eigen does.
@@ -157,14 +160,14 @@ SolidInView::SolidInView(ShapeKind shape, const Eigen::Vector3d& half_extents, c
     for (int axis = 0; axis < 3; ++axis) origin[axis] = eye[axis], half[axis] = half_extents[axis];
 }
 
-void meet(const SolidInView& solid, const Rays& rays, double first_face, const Nearest& nearest) {
+void intersect(const SolidInView& solid, const Rays& rays, double first_face, const Nearest& nearest) {
     switch (solid.kind) {
         case ShapeKind::box:
-            return meet_box(solid, rays, first_face, nearest);
+            return intersect_box(solid, rays, first_face, nearest);
         case ShapeKind::cylinder:
-            return meet_cylinder(solid, rays, first_face, nearest);
+            return intersect_cylinder(solid, rays, first_face, nearest);
         case ShapeKind::sphere:
-            return meet_sphere(solid, rays, first_face, nearest);
+            return intersect_sphere(solid, rays, first_face, nearest);
         case ShapeKind::plane:
             return;
     }

@@ -47,7 +47,7 @@ struct Nearest {
 
 /// Finds the rays that enter `solid` from outside nearer than `nearest`, and sets their depth, their entry
 /// and their face: `first_face` + that of face_normal(), or + Nearest::curved.
-void meet(const SolidInView& solid, const Rays& rays, double first_face, const Nearest& nearest);
+void intersect(const SolidInView& solid, const Rays& rays, double first_face, const Nearest& nearest);
 
 /// The outward unit normal at the point where a ray enters a cylinder or sphere through its curved face.
 Eigen::Vector3d curved_normal(ShapeKind kind, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,

@@ -8,22 +8,22 @@
 namespace forage::observe {
 namespace {
 
-using Begin = Condition::Begin;
+using TimePoint = Condition::TimePoint;
 using Settings = Manipulation::Settings;
 
 /// The time of a condition; that of an absent one is `otherwise`.
-std::optional<Begin> time_of(const std::optional<Condition>& when, double seconds_per_cycle,
-                             Begin otherwise) {
+std::optional<TimePoint> time_of(const std::optional<Condition>& when, double seconds_per_cycle,
+                                 TimePoint otherwise) {
     return when ? when->begin(seconds_per_cycle) : otherwise;
 }
 
-constexpr Begin run_start, no_end{false, std::numeric_limits<double>::infinity()};
+constexpr TimePoint run_start, no_end{false, std::numeric_limits<double>::infinity()};
 
 /// When one manipulation acts.
 struct Times {
-    std::optional<Begin> from, until;  ///< empty when not known
-    double every = 1;                  ///< cycles from one action to the next
-    double count = no_end.first;       ///< of actions
+    std::optional<TimePoint> from, until;  ///< empty when not known
+    double every = 1;                      ///< cycles from one action to the next
+    double count = no_end.number;          ///< of actions
 
     Times(const Settings& s, double seconds_per_cycle)
         : from(time_of(s.from, seconds_per_cycle, run_start)),
@@ -34,7 +34,7 @@ struct Times {
                 if (from->in_trials)
                     from.reset();
                 else
-                    from->first = std::max(from->first, first);
+                    from->number = std::max(from->number, first);
             }
             return;
         }
@@ -44,18 +44,18 @@ struct Times {
                     static_cast<double>((s.patterns.size() + s.step - 1) / s.step);
     }
     bool always() const {
-        return every == 1 && count == no_end.first && until && until->first == no_end.first;
+        return every == 1 && count == no_end.number && until && until->number == no_end.number;
     }
     /// Whether it certainly has not ended at a time `t` after its start.
-    bool lasts(const Begin& t) const {
+    bool lasts(const TimePoint& t) const {
         if (!until) return false;
-        if (until->first == no_end.first) return true;
+        if (until->number == no_end.number) return true;
         if (t.at_start()) return !until->at_start();
-        return until->in_trials == t.in_trials && until->first > t.first;
+        return until->in_trials == t.in_trials && until->number > t.number;
     }
     /// Whether it certainly acts in this cycle.
     bool acts(double cycle) const {
-        const double since = cycle - from->first;
+        const double since = cycle - from->number;
         const double n = since / every;
         return since >= 0 && n == static_cast<double>(static_cast<std::uint64_t>(n)) && n < count &&
                lasts({false, cycle});
@@ -63,13 +63,13 @@ struct Times {
 };
 
 /// Whether `later`, which does not begin before `earlier`, certainly acts together with it.
-bool meet(const Times& later, const Times& earlier) {
+bool overlap(const Times& later, const Times& earlier) {
     if (!later.from || !earlier.from) return false;
-    const Begin& begin = *later.from;
+    const TimePoint& begin = *later.from;
     const bool ordered = earlier.from->at_start() ||
-                         (earlier.from->in_trials == begin.in_trials && earlier.from->first <= begin.first);
+                         (earlier.from->in_trials == begin.in_trials && earlier.from->number <= begin.number);
     if (!ordered) return false;
-    if (earlier.every == 1 && earlier.count == no_end.first)
+    if (earlier.every == 1 && earlier.count == no_end.number)
         return later.lasts(begin) && earlier.lasts(begin);
     const bool in_cycles =
         (begin.at_start() || !begin.in_trials) && (earlier.from->at_start() || !earlier.from->in_trials);
@@ -79,7 +79,7 @@ bool meet(const Times& later, const Times& earlier) {
         if (t->from->at_start()) t->from = run_start;
     constexpr int tried = 10'000;
     for (int k = 0; k < tried && k < a.count; ++k) {
-        const double cycle = a.from->first + k * a.every;
+        const double cycle = a.from->number + k * a.every;
         if (!a.lasts({false, cycle}) || !b.lasts({false, cycle})) return false;
         if (b.acts(cycle)) return true;
     }
@@ -91,26 +91,26 @@ bool meet(const Times& later, const Times& earlier) {
 bool act_together(const Settings& a, const Settings& b, bool same_start, double seconds_per_cycle) {
     const Times one(a, seconds_per_cycle), other(b, seconds_per_cycle);
     const auto whole = [](const Times& t) { return t.always() && t.from && t.from->at_start(); };
-    return whole(one) || whole(other) || (same_start && one.always() && other.always()) || meet(one, other) ||
-           meet(other, one);
+    return whole(one) || whole(other) || (same_start && one.always() && other.always()) ||
+           overlap(one, other) || overlap(other, one);
 }
 
 std::string why_never(const Settings& s, const KnownLength& length) {
     const Times times(s, length.seconds_per_cycle);
     if (!times.from) return {};
-    const Begin& from = *times.from;
-    if (times.until && times.until->first != no_end.first &&
+    const TimePoint& from = *times.from;
+    if (times.until && times.until->number != no_end.number &&
         (times.until->at_start() ||
-         (times.until->in_trials == from.in_trials && times.until->first <= from.first)))
+         (times.until->in_trials == from.in_trials && times.until->number <= from.number)))
         return "it ends before it begins";
     const auto beyond = [&](const std::optional<double>& end, double first, const char* unit) {
         return end && first >= *end
                    ? fmt::format("it begins in {0} {1:.15g}, and the run ends after {2:.15g} {0}s", unit,
-                                 from.first, *end)
+                                 from.number, *end)
                    : std::string();
     };
-    return from.in_trials ? beyond(length.trials, from.first - 1, "trial")
-                          : beyond(length.cycles, from.first, "cycle");
+    return from.in_trials ? beyond(length.trials, from.number - 1, "trial")
+                          : beyond(length.cycles, from.number, "cycle");
 }
 
 }  // namespace forage::observe

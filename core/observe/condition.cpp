@@ -122,14 +122,14 @@ bool Condition::holds(const Node& n, const engine::Simulation& simulation, const
     }
 }
 
-std::optional<Condition::Begin> Condition::begin(const Node& n, double seconds_per_cycle) const {
+std::optional<Condition::TimePoint> Condition::begin(const Node& n, double seconds_per_cycle) const {
     using Operator = expression::Condition::Operator;
     if (n.op == Operator::both || n.op == Operator::either) {
         const auto a = begin(nodes_[n.first], seconds_per_cycle),
                    b = begin(nodes_[n.second], seconds_per_cycle);
         if (!a || !b || a->in_trials != b->in_trials) return std::nullopt;
-        return Begin{a->in_trials,
-                     n.op == Operator::both ? std::max(a->first, b->first) : std::min(a->first, b->first)};
+        return TimePoint{a->in_trials, n.op == Operator::both ? std::max(a->number, b->number)
+                                                              : std::min(a->number, b->number)};
     }
     const bool turned = n.op == Operator::less || n.op == Operator::at_most;
     if (!turned && n.op != Operator::more && n.op != Operator::at_least) return std::nullopt;
@@ -143,8 +143,8 @@ std::optional<Condition::Begin> Condition::begin(const Node& n, double seconds_p
         return std::nullopt;
     constexpr double rounding = 1e-9;  // of a number of cycles
     const bool later = n.op == Operator::more || n.op == Operator::less;
-    return Begin{time.kind == Quantity::Kind::trial,
-                 later ? std::floor(from + rounding) + 1 : std::ceil(from - rounding)};
+    return TimePoint{time.kind == Quantity::Kind::trial,
+                     later ? std::floor(from + rounding) + 1 : std::ceil(from - rounding)};
 }
 
 std::optional<Condition> parse_condition(const engine::Layout& layout, bool trials, std::string_view text,

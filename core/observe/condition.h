@@ -35,15 +35,15 @@ class Condition {
         return holds(nodes_.back(), simulation, now);
     }
 
-    /// A time from which on a condition holds: a cycle, counted from 0, or a trial, counted from 1.
-    struct Begin {
+    /// A point in time: a cycle, counted from 0, or a trial, counted from 1.
+    struct TimePoint {
         bool in_trials = false;
-        double first = 0;
-        bool at_start() const { return first <= (in_trials ? 1 : 0); }
+        double number = 0;
+        bool at_start() const { return number <= (in_trials ? 1 : 0); }
     };
     /// The time from which on the condition holds, when it depends on nothing but the time: "cycle 100",
     /// "30 s", "cycle > 5 and cycle >= 8". Empty for other conditions.
-    std::optional<Begin> begin(double seconds_per_cycle) const {
+    std::optional<TimePoint> begin(double seconds_per_cycle) const {
         return begin(nodes_.back(), seconds_per_cycle);
     }
 
@@ -59,7 +59,7 @@ class Condition {
     friend std::optional<Condition> parse_condition(const engine::Layout&, bool, std::string_view,
                                                     std::string_view, Diagnostics&, Location);
     bool holds(const Node& node, const engine::Simulation& simulation, const SimTime& now) const;
-    std::optional<Begin> begin(const Node& node, double seconds_per_cycle) const;
+    std::optional<TimePoint> begin(const Node& node, double seconds_per_cycle) const;
 
     std::vector<Node> nodes_;
     std::vector<Quantity> quantities_;

@@ -195,8 +195,8 @@ std::optional<Entry> entry(ShapeKind kind, const Eigen::Vector3d& half, const Ei
     depth.fill(far), at.fill(0), face.fill(-1);
     x.fill(static_cast<float>(ray.x())), y.fill(static_cast<float>(ray.y()));
     z.fill(static_cast<float>(ray.z()));
-    forage::bug::meet({kind, half, origin, turn}, {x.data(), y.data(), z.data(), count}, 0,
-                      {depth.data(), at.data(), face.data()});
+    forage::bug::intersect({kind, half, origin, turn}, {x.data(), y.data(), z.data(), count}, 0,
+                           {depth.data(), at.data(), face.data()});
     for (std::size_t i = 1; i < count; ++i) {
         CHECK(at[i] == at[0]);
         CHECK(face[i] == face[0]);
