@@ -1,10 +1,12 @@
 #include "core/observe/column.h"
 
 #include <array>
+#include <tuple>
 
 #include <fmt/format.h>
 
 #include "core/base/separated.h"
+#include "core/model/find_one.h"
 #include "core/model/lookup.h"
 
 namespace forage::observe {
@@ -31,16 +33,12 @@ bool names_connection(const engine::Layout& s, const expression::Piece& piece) {
 std::optional<ColumnRef> find_synapses(const engine::Layout& s, const expression::Piece& piece,
                                        const expression::Context& context) {
     auto [name, state] = split_state(piece.text);
-    auto found = model::items_named(s.connections, name);
-    if (found.empty()) name = piece.text, state = {}, found = model::items_named(s.connections, name);
-    if (found.size() != 1) {
-        std::vector<std::string> ids;
-        for (const int c : found) ids.push_back(s.connections[c].id);
-        context.error(piece.at, fmt::format("'{}' names {} connections", name, found.size()),
-                      fmt::format("use the id: '{}'", separated(ids, "', '")));
-        return std::nullopt;
-    }
-    const auto& connection = s.connections[found.front()];
+    if (model::items_named(s.connections, name).empty()) name = piece.text, state = {};
+    const auto found = model::find_one(
+        s.connections, "connection", name,
+        [&](const std::string& message, const std::string& hint) { context.error(piece.at, message, hint); });
+    if (!found) return std::nullopt;
+    const auto& connection = s.connections[*found];
     if (connection.type.has_gain) {
         context.error(piece.at, fmt::format("the synapses of connection '{}' keep nothing", name),
                       fmt::format("{} has a fixed weight, the same in all synapses", connection.type.name));
@@ -50,8 +48,7 @@ std::optional<ColumnRef> find_synapses(const engine::Layout& s, const expression
     for (int i = 0; i < std::ssize(connection.type.states); ++i) {
         known.push_back(connection.type.states[i].name);
         if (known.back() == state)
-            return ColumnRef{
-                0, i, {}, fmt::format("{}:{}", model::trim(connection.name), state), found.front()};
+            return ColumnRef{0, i, {}, fmt::format("{}:{}", model::trim(connection.name), state), *found};
     }
     context.error(
         piece.at,
@@ -71,11 +68,7 @@ std::optional<ColumnRef> find_column(const engine::Layout& s, const expression::
     const std::string_view text = piece.text;
     std::string_view path = text, state;
     auto found = model::groups_named(s.groups, path);  // a name may contain ':'
-    if (const auto colon = text.rfind(':'); found.empty() && colon != std::string_view::npos) {
-        path = text.substr(0, colon);
-        state = model::trim(text.substr(colon + 1));
-        found = model::groups_named(s.groups, path);
-    }
+    if (found.empty()) std::tie(path, state) = split_state(text), found = model::groups_named(s.groups, path);
     if (found.size() != 1) {
         if (const auto open = text.rfind('('); found.empty() && text.ends_with(')') && open != text.npos) {
             // A name may contain parentheses. Here only the rest of the text names a group.

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "core/base/separated.h"
+#include "core/model/find_one.h"
 #include "core/model/lookup.h"
 
 namespace forage {
@@ -55,17 +55,9 @@ bool is_connection(const Run& run, std::string_view name) {
 }
 
 int find_connection(const Run& run, std::string_view name) {
-    const auto& all = run.layout().connections;
-    const auto found = model::items_named(all, name);
-    if (found.size() == 1) return found.front();
-    std::vector<std::string> names;
-    if (found.empty()) {
-        for (const auto& c : all) names.push_back(c.name);
-        throw InputError(fmt::format("there is no connection '{}'", name), suggest(name, names));
-    }
-    for (const int c : found) names.push_back(all[static_cast<std::size_t>(c)].id);
-    throw InputError(fmt::format("'{}' names {} connections", name, found.size()),
-                     fmt::format("use the id: '{}'", separated(names, "', '")));
+    return *model::find_one(
+        run.layout().connections, "connection", name,
+        [](const std::string& message, const std::string& hint) { throw InputError(message, hint); });
 }
 
 std::vector<double> weights(Run& run, int connection) {

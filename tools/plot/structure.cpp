@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "core/base/separated.h"
 #include "core/connectivity/grid.h"
+#include "core/model/find_one.h"
 #include "core/model/lookup.h"
 #include "core/model/validate.h"
 #include "tools/plot/connection.h"
@@ -16,9 +16,15 @@
 namespace forage::plot {
 namespace {
 
-const model::Process* find_process(const model::System& system, std::string_view name) {
-    const auto found = model::items_named(system.processes, name);
-    return found.empty() ? nullptr : &system.processes[found.front()];
+/// The process or connection with this name. Reports a name that none or several have.
+template <class Item>
+const Item* find(const std::vector<Item>& items, std::string_view kind, std::string_view name,
+                 const std::string& context, Diagnostics& diagnostics, const Location& at) {
+    const auto found =
+        model::find_one(items, kind, name, [&](const std::string& message, const std::string& hint) {
+            diagnostics.error(at, fmt::format("{}: {}", context, message), hint);
+        });
+    return found ? &items[static_cast<std::size_t>(*found)] : nullptr;
 }
 
 /// The input that each synapse delivers for an activity of 1.
@@ -112,28 +118,15 @@ ConnectionSynapses synapses_of(const model::Connection& c, const model::System& 
 
 const model::Connection* find_connection(const model::System& system, std::string_view name,
                                          std::string_view option, Diagnostics& diagnostics, Location at) {
-    const auto found = model::items_named(system.connections, name);
-    if (found.size() == 1) return &system.connections[found.front()];
-    std::vector<std::string> names, ids;
-    for (const auto& c : system.connections) names.emplace_back(model::trim(c.name));
-    for (const int i : found) ids.push_back(system.connections[i].id);
-    if (found.empty())
-        diagnostics.error(at, fmt::format("{}: there is no connection '{}'", option, name),
-                          suggest(name, names));
-    else
-        diagnostics.error(at, fmt::format("{}: '{}' names {} connections", option, name, found.size()),
-                          fmt::format("use the id: '{}'", separated(ids, "', '")));
-    return nullptr;
+    return find(system.connections, "connection", name, std::string(option), diagnostics, at);
 }
 
 void check_structure(const PlotSpec& spec, const model::System& system, std::string_view option,
                      Diagnostics& diagnostics, Location at) {
     if (spec.of_connection()) find_connection(system, spec.what, option, diagnostics, at);
-    if (spec.kind != PlotSpec::Kind::diagram || spec.what.empty() || find_process(system, spec.what)) return;
-    std::vector<std::string> names;
-    for (const auto& p : system.processes) names.emplace_back(model::trim(p.name));
-    diagnostics.error(at, fmt::format("{} '{}': there is no process '{}'", option, spec.text, spec.what),
-                      suggest(spec.what, names));
+    if (spec.kind == PlotSpec::Kind::diagram && !spec.what.empty())
+        find(system.processes, "process", spec.what, fmt::format("{} '{}'", option, spec.text), diagnostics,
+             at);
 }
 
 WiringPlot wiring_of(const PlotSpec& spec, const model::System& system) {
@@ -145,15 +138,16 @@ WiringPlot wiring_of(const PlotSpec& spec, const model::System& system) {
 
 Picture structure_plot(const PlotSpec& spec, const model::System& system, const Registry& registry,
                        const engine::Simulation* simulation, std::uint64_t seed, const std::string& run) {
-    if (spec.of_connection()) {
-        Diagnostics diagnostics;
-        const auto* connection = find_connection(system, spec.what, "connection", diagnostics);
-        if (!connection) throw std::runtime_error(format(diagnostics));
-        return picture_of(*connection, spec.kind == PlotSpec::Kind::wiring, system, registry, simulation,
-                          seed);
+    if (!spec.of_connection() && spec.what.empty()) return diagram(system, run);
+    Diagnostics diagnostics;
+    if (!spec.of_connection()) {
+        const auto* process = find(system.processes, "process", spec.what, "diagram", diagnostics, {});
+        if (!process) throw std::runtime_error(format(diagnostics));
+        return process_diagram(system, *process);
     }
-    const auto* process = find_process(system, spec.what);
-    return process ? process_diagram(system, *process) : diagram(system, run);
+    const auto* connection = find_connection(system, spec.what, "connection", diagnostics);
+    if (!connection) throw std::runtime_error(format(diagnostics));
+    return picture_of(*connection, spec.kind == PlotSpec::Kind::wiring, system, registry, simulation, seed);
 }
 
 }  // namespace forage::plot
