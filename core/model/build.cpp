@@ -332,7 +332,8 @@ System system_of(ProcessFile file) {
     return out;
 }
 
-void make_original(System& system) {
+void make_original(System& system, Diagnostics& diagnostics) {
+    refuse_extensions(system, diagnostics);
     const auto is_part = [](const Process& p) { return p.linked() && !p.ports.empty(); };
     if (std::ranges::any_of(system.processes, is_part)) embed_links(system);
     complete(system.processes, system.connections);
@@ -342,8 +343,7 @@ void make_original(System& system) {
 void make_original(ProcessFile& file, Diagnostics& diagnostics) {
     System alone = system_of(std::move(file));
     compute(alone, diagnostics);
-    refuse_extensions(alone, diagnostics);
-    make_original(alone);
+    make_original(alone, diagnostics);
     file.process = std::move(alone.processes.front()), file.connections = std::move(alone.connections);
 }
 

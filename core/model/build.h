@@ -85,9 +85,9 @@ void embed_links(System& system);
 System system_of(ProcessFile file);
 
 /// Makes a system one that the original can read: complete, with numbers instead of formulas and without
-/// links to parts.
-void make_original(System& system);
-/// The same for a process file. Reports formulas that have no value.
+/// links to parts. Reports what the original cannot say.
+void make_original(System& system, Diagnostics& diagnostics);
+/// Does the same to a process file, and reports formulas that have no value.
 void make_original(ProcessFile& file, Diagnostics& diagnostics);
 
 /// Gives all connections, groups and processes what the original requires and a file may leave out: patterns,

@@ -94,9 +94,8 @@ void save(SystemFile& file, const std::string& path, bool original) {
     model::move_files(moved, file.path, path, *file.types);
     if (original) {
         Diagnostics diagnostics;
-        model::refuse_extensions(moved, diagnostics);
+        model::make_original(moved, diagnostics);
         throw_errors(diagnostics);
-        model::make_original(moved);
     }
     write_file(path, xml::write_system(moved));
     file.model = std::move(moved), file.path = path;

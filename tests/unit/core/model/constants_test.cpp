@@ -232,12 +232,12 @@ TEST_CASE("formulas keep their numbers when systems are joined, and when parts a
 
 TEST_CASE("the original gets numbers instead of formulas") {
     System s = read(file_with_constants);
-    make_original(s);
+    Diagnostics diagnostics;
+    make_original(s, diagnostics);
     CHECK(xml::write_system(s).find('{') == std::string::npos);
     CHECK(weight(s) == -0.25);
     auto file = extract_process(read(file_with_constants), "p");
     CHECK(xml::write_process(file).find("name=\"channels\" value=\"{2 * 3}\"") != std::string::npos);
-    Diagnostics diagnostics;
     make_original(file, diagnostics);
     CHECK_FALSE(diagnostics.failed());
     CHECK(xml::write_process(file).find('{') == std::string::npos);

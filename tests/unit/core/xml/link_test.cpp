@@ -187,7 +187,8 @@ TEST_CASE("a module of a part reads the group that each use gives") {
     CHECK(parts.read(written) == s);
 
     auto plain = *s;
-    model::make_original(plain);
+    Diagnostics diagnostics;
+    model::make_original(plain, diagnostics);
     CHECK(xml::write_system(plain).find(" path=") == std::string::npos);
     CHECK(xml::write_system(plain).find("<XRef name=\"in\" target=\"h.dst\"/>") != std::string::npos);
 }
