@@ -70,14 +70,14 @@ std::string side_name(double angle) {
 }
 
 /// Where the rays of a sensor look, which the robot of the world says.
-auto rays_of(const char* sensor) {
-    return [sensor](const GazeboBug& module, const ModulePorts& ports, const GroupShape& shape) {
+auto rays_of(RangePurpose purpose) {
+    return [purpose](const GazeboBug& module, const ModulePorts& ports, const GroupShape& shape) {
         CellNames out;
         const auto* world = dynamic_cast<const World*>(ports.environment);
         const auto bug = world ? world->find(module.device_name) : std::nullopt;
         if (!bug) return out;
         for (const auto& s : world->robot(*bug).sensors.range_sensors())
-            if (s.name == sensor && s.rays == shape.cells)
+            if (s.purpose() == purpose && s.rays == shape.cells)
                 for (int k = 0; k < s.rays; ++k) out.columns.push_back(side_name(s.cell_angle(k)));
         return out;
     };
@@ -203,14 +203,14 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
         .doc(
             "One cell per ray of the sensor 'laser', from left to right: 1 - distance / range, or 0 if "
             "nothing is in range.")
-        .names(rays_of("laser"));
+        .names(rays_of(RangePurpose::proximity));
     s.output("_target", "Target sensor")
         .optional()
         .size(32, 1)
         .doc(
             "One cell per ray of the sensor 'laser_target', which sees the light, from left to right: 1 - "
             "distance / range, or 0 if no light is in range.")
-        .names(rays_of("laser_target"));
+        .names(rays_of(RangePurpose::light));
     s.output("_proximityGripper", "Gripper proximity sensor")
         .optional()
         .size("16 x 1 cells if 'gripper' is true",
@@ -220,7 +220,7 @@ void GazeboBug::describe(ModuleSpec<GazeboBug>& s) {
         .doc(
             "One cell per ray of the sensor 'laser_gripper' between the fingers, from left to right: 1 - "
             "distance / range. The outer cells see the palm.")
-        .names(rays_of("laser_gripper"));
+        .names(rays_of(RangePurpose::gripper));
     s.output("_gps", "GPS")
         .optional()
         .size(3, 1)
@@ -296,7 +296,8 @@ void GazeboBug::check(const ModulePorts& ports, Diagnostics& diagnostics) {
                           robots_of(*world_, device_name));
         return;
     }
-    const auto scanner = [&](std::size_t port, std::size_t rays, const char* sensor) {
+    const auto scanner = [&](std::size_t port, std::size_t rays, RangePurpose purpose) {
+        const auto sensor = range_uses[static_cast<std::size_t>(purpose)].sensor;
         const auto& g = ports.outputs[port];
         if (g.shape.cells > 0 && static_cast<std::size_t>(g.shape.cells) != rays)
             report(g,
@@ -305,15 +306,15 @@ void GazeboBug::check(const ModulePorts& ports, Diagnostics& diagnostics) {
                                            device_name, rays, g.shape.cells),
                    {});
     };
-    scanner(proximity, world_->snapshot(*bug).proximity.size(), "laser");
-    scanner(target, world_->snapshot(*bug).target.size(), "laser_target");
+    scanner(proximity, world_->snapshot(*bug).proximity.size(), RangePurpose::proximity);
+    scanner(target, world_->snapshot(*bug).target.size(), RangePurpose::light);
     const bool connected =
         ports.inputs[gripper_command].shape.cells == 1 || ports.outputs[gripper_scan].shape.cells == 16;
     if (gripper && connected && !world_->has_gripper(*bug))  // the original waits forever
         diagnostics.error(at_parameter("gripper"), fmt::format("robot '{}' has no gripper", device_name),
                           "set 'gripper' to false, or use a robot with a gripper");
     if (gripper && world_->has_gripper(*bug))
-        scanner(gripper_scan, world_->snapshot(*bug).gripper.size(), "laser_gripper");
+        scanner(gripper_scan, world_->snapshot(*bug).gripper.size(), RangePurpose::gripper);
 }
 
 void GazeboBug::start(const ModulePorts& ports, ModuleFrame& frame) {

@@ -75,13 +75,6 @@ std::string motor_section() {
         rounded(speed_noise));
 }
 
-std::string port_of(const std::string& sensor) {
-    return sensor == "laser"           ? "`_proximity`"
-           : sensor == "laser_target"  ? "`_target`"
-           : sensor == "laser_gripper" ? "`_proximityGripper`"
-                                       : "none";
-}
-
 std::string range_section(const RobotSensors& sensors) {
     if (sensors.range_sensors().empty()) return {};
     std::vector<std::vector<std::string>> columns = {
@@ -92,7 +85,7 @@ std::string range_section(const RobotSensors& sensors) {
         const RangeScanner scanner(s, sensors.link_pose());
         double nearest = s.min_range, activity = 0;
         scanner.to_activity({&nearest, 1}, {&activity, 1});
-        columns.push_back({"`" + s.name + "`", port_of(s.name), fmt::format("{} x 1", s.rays),
+        columns.push_back({"`" + s.name + "`", s.use() ? fmt::format("`{}`", s.use()->port) : "none", fmt::format("{} x 1", s.rays),
                            rounded(scanner.height()), rounded(s.min_range), rounded(s.max_range),
                            s.max_range == 1 ? "1 - d" : fmt::format("1 - d / {}", rounded(s.max_range)),
                            rounded(activity), rounded(s.noise), rounded(s.noise / s.max_range),

@@ -22,11 +22,11 @@ RobotSensors::RobotSensors(const Link& link, const std::string& robot, std::size
     if (!link.cameras.empty()) camera_sensor_ = link.cameras.front();
 }
 
-std::optional<RobotSensors::Scan> RobotSensors::make_scan(std::string_view sensor, RobotStream use,
+std::optional<RobotSensors::Scan> RobotSensors::make_scan(RangePurpose purpose, RobotStream use,
                                                           std::span<const Solid> fixed,
                                                           std::span<const MovingSolid> moving, double step,
                                                           std::vector<double>& cells) const {
-    const auto found = std::ranges::find(range_sensors_, sensor, &RangeSensor::name);
+    const auto found = std::ranges::find(range_sensors_, purpose, &RangeSensor::purpose);
     if (found == range_sensors_.end()) return {};
     Scan scan{RangeScanner(*found, link_pose_),
               robot_stream(seed_, robot_, use),
@@ -59,12 +59,12 @@ std::optional<RobotSensors::Scan> RobotSensors::make_scan(std::string_view senso
 
 void RobotSensors::make_scanners(std::span<const Solid> fixed, std::span<const MovingSolid> moving,
                                  double step) {
-    const auto make = [&](std::string_view sensor, RobotStream use, std::vector<double>& cells) {
-        return make_scan(sensor, use, fixed, moving, step, cells);
+    const auto make = [&](RangePurpose purpose, RobotStream use, std::vector<double>& cells) {
+        return make_scan(purpose, use, fixed, moving, step, cells);
     };
-    proximity_ = make("laser", RobotStream::proximity_noise, snapshot_.proximity);
-    target_ = make("laser_target", RobotStream::target_noise, snapshot_.target);
-    gripper_ = make("laser_gripper", RobotStream::gripper_noise, snapshot_.gripper);
+    proximity_ = make(RangePurpose::proximity, RobotStream::proximity_noise, snapshot_.proximity);
+    target_ = make(RangePurpose::light, RobotStream::target_noise, snapshot_.target);
+    gripper_ = make(RangePurpose::gripper, RobotStream::gripper_noise, snapshot_.gripper);
     if (!camera_sensor_) return;
     camera_clock_.emplace(camera_sensor_->rate, step);
     snapshot_.image_width = camera_sensor_->width, snapshot_.image_height = camera_sensor_->height;

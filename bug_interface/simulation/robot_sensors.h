@@ -115,7 +115,7 @@ class RobotSensors {
         void measure(const Pose2& robot, std::uint64_t sample, bool with_noise, const BodyPoses& poses,
                      std::span<double> cells);
     };
-    std::optional<Scan> make_scan(std::string_view sensor, RobotStream use, std::span<const Solid> fixed,
+    std::optional<Scan> make_scan(RangePurpose purpose, RobotStream use, std::span<const Solid> fixed,
                                   std::span<const MovingSolid> moving, double step,
                                   std::vector<double>& cells) const;
     std::size_t find_visible(const BodyPoses& poses, MovingVisuals& visuals);

@@ -4,6 +4,7 @@
 // are metres, radians, seconds and kilograms.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <set>
 #include <string>
@@ -56,6 +57,20 @@ struct Visual {
     Material material;
 };
 
+/// What a range sensor is for, which its name says.
+enum class RangePurpose { proximity, light, gripper, none };
+
+/// A purpose, the name of its sensor, the output port of a robot's module that gets the scan, and its title
+/// in pictures.
+struct RangeUse {
+    RangePurpose purpose;
+    std::string_view sensor, port, title;
+};
+inline constexpr std::array<RangeUse, 3> range_uses = {
+    {{RangePurpose::proximity, "laser", "_proximity", "proximity"},
+     {RangePurpose::light, "laser_target", "_target", "light"},
+     {RangePurpose::gripper, "laser_gripper", "_proximityGripper", "gripper"}}};
+
 /// A planar range scanner. Ray i of n points `first + i * (last - first) / (n - 1)` to the left of the
 /// sensor's x axis.
 struct RangeSensor {
@@ -68,6 +83,13 @@ struct RangeSensor {
     double noise = 0;                        ///< standard deviation, m
     double rate = 0;  ///< scans per second of the world; 0 for a scan whenever it is requested
 
+    /// What is known of its purpose; null when groups cannot get its scan.
+    const RangeUse* use() const {
+        for (const auto& known : range_uses)
+            if (known.sensor == name) return &known;
+        return nullptr;
+    }
+    RangePurpose purpose() const { return use() ? use()->purpose : RangePurpose::none; }
     /// The angle of the ray behind a cell of the scan's group, rad to the left; cell 0 is the last ray.
     double cell_angle(int cell) const {
         return rays > 1 ? last_angle - cell * (last_angle - first_angle) / (rays - 1) : first_angle;

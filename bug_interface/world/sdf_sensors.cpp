@@ -1,30 +1,26 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "bug_interface/world/sdf_elements.h"
 
 namespace forage::bug {
-namespace {
-
-/// The range sensors whose scans groups can receive.
-const std::array<std::string, 3> known_rays = {"laser", "laser_target", "laser_gripper"};
-
-}  // namespace
-
 void read_sensor(SdfSource& in, const xml::Element& e, Link& link) {
     const std::string_view type = e["type"].view;
     if (type == "ray") {
         RangeSensor s;
         s.where = e.where(), s.name = e["name"].text(), s.pose = in.pose_of(e);
-        if (std::ranges::find(known_rays, s.name) == known_rays.end())
+        if (!s.use()) {
+            std::vector<std::string> known;
+            for (const auto& use : range_uses) known.emplace_back(use.sensor);
             in.diagnostics.warning(s.where,
                                    fmt::format("no group gets what a ray sensor called '{}' sees", s.name),
-                                   suggest(s.name, known_rays));
+                                   suggest(s.name, known));
+        }
         const xml::Element scan = e.child("ray/scan/horizontal");
         const xml::Element range = e.child("ray/range");
         if (!scan || !range) {

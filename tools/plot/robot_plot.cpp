@@ -19,17 +19,17 @@ constexpr Colour body_colour{0.80, 0.84, 0.90}, body_edge{0.25, 0.32, 0.45}, cam
     gripper_ray{0.35, 0.60, 0.30};
 constexpr double small = 11;
 
+using bug::RangePurpose;
+
 std::string short_number(double v) { return rounded(v, 2); }
 
 Colour colour_of(const bug::RangeSensor& s) {
-    return s.name == "laser_target" ? light_ray : s.name == "laser_gripper" ? gripper_ray : near_ray;
+    const auto purpose = s.purpose();
+    return purpose == RangePurpose::light     ? light_ray
+           : purpose == RangePurpose::gripper ? gripper_ray
+                                              : near_ray;
 }
-std::string name_of(const bug::RangeSensor& s) {
-    return s.name == "laser"           ? "proximity"
-           : s.name == "laser_target"  ? "light"
-           : s.name == "laser_gripper" ? "gripper"
-                                       : s.name;
-}
+std::string_view title_of(const bug::RangeSensor& s) { return s.use() ? s.use()->title : s.name; }
 
 /// Draws the robot's disc, with its heading upwards.
 void draw_disc(Canvas& canvas, double x, double y, double radius) {
@@ -65,7 +65,7 @@ void draw_rays(Canvas& canvas, const Box& box, const bug::RobotSensors& sensors,
     }
     for (const double width : {3.0, 1.0})  // the wide light rays lie below the narrow ones
         for (const auto& s : sensors.range_sensors()) {
-            if ((s.name == "laser_target") != (width > 2)) continue;
+            if ((s.purpose() == RangePurpose::light) != (width > 2)) continue;
             const Eigen::Vector3d at = (sensors.link_pose() * s.pose).translation();
             for (int k = 0; k < s.rays; ++k) {
                 const auto [x0, y0] = point(s.cell_angle(k), s.min_range * scale);
@@ -79,10 +79,10 @@ void draw_rays(Canvas& canvas, const Box& box, const bug::RobotSensors& sensors,
     double legend = box.y + box.height + 4;
     for (const auto& s : sensors.range_sensors()) {
         canvas.line(box.x, legend - 4, box.x + 24, legend - 4, colour_of(s), 3);
-        canvas.text(box.x + 32, legend,
-                    fmt::format("{}: {} to {} m", name_of(s), rounded(s.min_range, 4),
-                                short_number(s.max_range)),
-                    small);
+        canvas.text(
+            box.x + 32, legend,
+            fmt::format("{}: {} to {} m", title_of(s), rounded(s.min_range, 4), short_number(s.max_range)),
+            small);
         legend += 16;
     }
     if (!widest) return;
@@ -200,8 +200,8 @@ void draw_side(Canvas& canvas, const Box& box, const bug::World& world, std::siz
         canvas.fill(camera_colour, 0.18);
         canvas.circle(px(eye.x()), py(eye.z()), 3.5);
         canvas.fill(camera_colour);
-        canvas.text(px(eye.x()) - 6, py(eye.z()) - 7, fmt::format("camera {} m", rounded(eye.z(), 3)),
-                    small, 1, camera_colour);
+        canvas.text(px(eye.x()) - 6, py(eye.z()) - 7, fmt::format("camera {} m", rounded(eye.z(), 3)), small,
+                    1, camera_colour);
         for (const double x : {seen.left.front().x(), seen.far})
             if (x < right_end) {
                 canvas.line(px(x), floor, px(x), floor + 5, black);
@@ -214,8 +214,8 @@ void draw_side(Canvas& canvas, const Box& box, const bug::World& world, std::siz
         const Eigen::Vector3d at = (sensors.link_pose() * s.pose).translation();
         const double end = std::min(at.x() + s.max_range, right_end);
         canvas.line(px(at.x() + s.min_range), py(at.z()), px(end), py(at.z()), colour_of(s), 2.2);
-        canvas.text(px(right_end), py(at.z()) - 4,
-                    fmt::format("{} {} m", name_of(s), rounded(at.z(), 3)), small, 1, black);
+        canvas.text(px(right_end), py(at.z()) - 4, fmt::format("{} {} m", title_of(s), rounded(at.z(), 3)),
+                    small, 1, black);
     }
 }
 

@@ -219,9 +219,10 @@ void WorldMap::draw_rays(Canvas& canvas, std::size_t robot) const {
     const auto& pose = world_.pose(robot);
     const auto& seen = world_.robot(robot).sensors.snapshot();
     for (const bug::RangeSensor& sensor : world_.robot(robot).sensors.range_sensors()) {
-        const bool light = sensor.name == "laser_target";
+        const bool light = sensor.purpose() == bug::RangePurpose::light;
         const auto& cells = light ? seen.target : seen.proximity;
-        if ((!light && sensor.name != "laser") || cells.size() != static_cast<std::size_t>(sensor.rays))
+        if ((!light && sensor.purpose() != bug::RangePurpose::proximity) ||
+            cells.size() != static_cast<std::size_t>(sensor.rays))
             continue;
         const double nothing =
             std::max(0.03, 5 * sensor.noise / sensor.max_range);  // the noise of a ray that meets nothing

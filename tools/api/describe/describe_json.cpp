@@ -227,8 +227,7 @@ json describe_world(const bug::World& world) {
         if (const auto& c = robot.sensors.camera_sensor())
             camera = {{"width", c->width}, {"height", c->height}};
         for (const auto& s : robot.sensors.range_sensors())
-            if (s.name == "laser" || s.name == "laser_target")
-                scans.push_back(s.name == "laser" ? "proximity" : "light");
+            if (s.use() && s.purpose() != bug::RangePurpose::gripper) scans.push_back(s.use()->title);
         robots.push_back({{"name", robot.name},
                           {"radius", robot.body.radius},
                           {"gripper", world.has_gripper(i)},
