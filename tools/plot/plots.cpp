@@ -243,6 +243,23 @@ void FilmRecorder::finish(RunView&, ResultFiles& files) {
     });
 }
 
+std::unique_ptr<FilmRecorder> make_film(Run& run, const std::string& file,
+                                        const std::vector<model::Expression>& groups,
+                                        const std::string& option, std::string_view group_option,
+                                        Diagnostics& diagnostics) {
+    const int errors = diagnostics.errors();
+    Film::check_name(file, option, diagnostics);
+    std::vector<observe::Source> sources;
+    for (const auto& group : groups)
+        if (auto source = observe::find_source(run.layout(), group.text, group_option, diagnostics, group.at))
+            sources.push_back(std::move(*source));
+    check_output(file, "film.gif", diagnostics);
+    auto* world = dynamic_cast<bug::World*>(run.environment());
+    if (!world || diagnostics.errors() > errors) return nullptr;
+    return std::make_unique<FilmRecorder>(*world, file, run.seconds_per_cycle(), run.title,
+                                          std::move(sources));
+}
+
 std::vector<PlotSpec> add_plots(const std::vector<model::Expression>& plots, Run& run, Format format,
                                 const std::string& title, Diagnostics& diagnostics) {
     std::vector<PlotSpec> trajectories;

@@ -1,6 +1,7 @@
 // Pictures of a run, drawn during the run or from its recordings.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -169,6 +170,13 @@ class FilmRecorder final : public Observer {
     std::uint64_t every_;  ///< cycles between two frames
     Film film_;
 };
+
+/// The recorder of a film of the run's world that shows the sources `groups`. `option` and `group_option`
+/// begin the messages about mistakes, which are all reported; null then, and in a run without a world.
+std::unique_ptr<FilmRecorder> make_film(Run& run, const std::string& file,
+                                        const std::vector<model::Expression>& groups,
+                                        const std::string& option, std::string_view group_option,
+                                        Diagnostics& diagnostics);
 
 /// Adds the observers that draw `plots`. Reports unknown names. Returns the trajectories among them, which
 /// need a PathRecorder. `title` is that of the run.

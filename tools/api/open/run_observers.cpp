@@ -66,10 +66,8 @@ void add_statistics(Preparation& p) {
     if (!p.spec().explain) return;
     p.prepared.statistics = &p.run().add(std::make_unique<observe::GroupStatistics>(p.run().layout()));
     if (p.world)
-        p.prepared.motor_report =
-            [motors = &p.run().add(std::make_unique<MotorStatistics>(p.run(), *p.world))] {
-                return motors->sentences();
-            };
+        p.prepared.motor_report = [motors = &p.run().add(std::make_unique<MotorStatistics>(
+                                       p.run(), *p.world))] { return motors->sentences(); };
 }
 
 void add_plots(Preparation& p) {
@@ -102,19 +100,11 @@ void add_paths(Preparation& p) {
 }
 
 void add_film(Preparation& p) {
-    const std::string& name = p.spec().video;
-    if (name.empty()) return;
-    plot::Film::check_name(name, "--video", p.diagnostics);
-    std::vector<observe::Source> groups;
-    for (const auto& g : p.spec().video_groups)
-        if (auto source =
-                observe::find_source(p.run().layout(), g.text, "--video-group", p.diagnostics, g.at))
-            groups.push_back(std::move(*source));
-    if (p.diagnostics.failed()) return;
-    check_output(name, "film.gif", p.diagnostics);
-    if (p.world)
-        p.run().add(std::make_unique<plot::FilmRecorder>(*p.world, name, p.run().seconds_per_cycle(),
-                                                         p.run().title, std::move(groups)));
+    const auto& spec = p.spec();
+    if (spec.video.empty()) return;
+    if (auto film = plot::make_film(p.run(), spec.video, spec.video_groups, "--video", "--video-group",
+                                    p.diagnostics))
+        p.run().add(std::move(film));
 }
 
 void add_broadcaster(Preparation& p) {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <forage/forage.h>
 
-#include "core/base/output_files.h"
 #include "core/observe/source.h"
 #include "core/run/path_recorder.h"
 #include "tools/plot/plots.h"
@@ -117,19 +116,14 @@ std::string draw(Run& run, const std::string& picture, const std::string& format
 }
 
 Observer& film(Run& run, const std::string& file, const std::vector<std::string>& groups) {
-    auto* world = dynamic_cast<bug::World*>(run.environment());
-    if (!world) throw InputError("a film needs a world", "open the run with a world");
+    if (!dynamic_cast<bug::World*>(run.environment()))
+        throw InputError("a film needs a world", "open the run with a world");
     Diagnostics diagnostics;
-    plot::Film::check_name(file, "film", diagnostics);
-    std::vector<observe::Source> sources;
-    for (const auto& group : groups)
-        if (auto source = observe::find_source(run.layout(), group, "film", diagnostics))
-            sources.push_back(std::move(*source));
+    std::vector<model::Expression> sources;
+    for (const auto& group : groups) sources.push_back({group});
+    auto film = plot::make_film(run, file, sources, "film", "film", diagnostics);
     throw_errors(diagnostics);
-    check_output(file, "film.gif", diagnostics);
-    throw_errors(diagnostics);
-    return run.add(std::make_unique<plot::FilmRecorder>(*world, file, run.seconds_per_cycle(), run.title,
-                                                        std::move(sources)));
+    return run.add(std::move(film));
 }
 
 std::size_t finish_film(Run& run, Observer& film) {
