@@ -6,6 +6,7 @@
 #include "core/plugin/search.h"
 #include "core/run/experiment/tables.h"
 #include "core/run/path_recorder.h"
+#include "core/run/result_names.h"
 #include "core/run/run_json.h"
 #include "tools/api/experiment/experiment.h"
 #include "tools/api/experiment/results.h"
@@ -30,8 +31,8 @@ void add_recorders(Run& run, bool paths) {
     const Environment* world = run.environment();
     if (!world) return;
     for (std::size_t i = 0; i < world->robot_names().size(); ++i) {
-        run.add(std::make_unique<TrialRecorder>(*world, i, run.layout(), "trials.csv"));
-        if (paths) run.add(std::make_unique<PathRecorder>(*world, i, "trajectory.csv"));
+        run.add(std::make_unique<TrialRecorder>(*world, i, run.layout(), trials_file()));
+        if (paths) run.add(std::make_unique<PathRecorder>(*world, i, trajectory_file()));
     }
 }
 

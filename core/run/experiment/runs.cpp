@@ -12,6 +12,7 @@
 
 #include "core/model/edit.h"
 #include "core/model/validate.h"
+#include "core/run/result_names.h"
 #include "core/run/run_json.h"
 
 namespace forage {
@@ -143,7 +144,7 @@ class Work {
                 static_cast<std::uint64_t>(std::ranges::count_if(trials, &Trial::reached_target));
         }
         result.measures = run.measure(*prepared.measures);
-        ResultFiles files(prepared.spec.directory, "trials.csv");
+        ResultFiles files(prepared.spec.directory, trials_file());
         {
             const std::lock_guard lock(libraries_);
             run.finish(files);

@@ -12,6 +12,7 @@
 #include "core/base/file_bytes.h"
 #include "core/base/output_files.h"
 #include "core/run/input_error.h"
+#include "core/run/result_names.h"
 #include "core/run/trial_recorder.h"
 
 namespace forage {
@@ -24,7 +25,7 @@ constexpr std::size_t block = 4096;
 /// The table of a run with trials; it has a header, also when no trial ended. Reports a table that is missing
 /// or empty.
 std::string read_table(const std::string& directory, Diagnostics& diagnostics) {
-    const std::string path = directory + "/trials.csv";
+    const std::string path = directory + "/" + trials_file();
     std::string out = file_bytes(path);
     if (out.empty())
         diagnostics.error(

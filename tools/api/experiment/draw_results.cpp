@@ -7,6 +7,7 @@
 #include "core/base/named_file.h"
 #include "core/base/output_files.h"
 #include "core/base/separated.h"
+#include "core/run/result_names.h"
 #include "tools/api/experiment/results.h"
 #include "tools/api/open/sources.h"
 #include "tools/plot/occupancy.h"
@@ -31,7 +32,7 @@ std::vector<std::string> usual_plots(const Results& results) {
         if (!r.what.one_number() && r.what.cells.width > 1 && r.what.cells.height > 1)
             out.push_back("space:" + r.what.name);
     }
-    if (!results.directory.empty() && fs::exists(results.directory + "/trajectory.csv"))
+    if (!results.directory.empty() && fs::exists(results.directory + "/" + trajectory_file()))
         out.emplace_back("trajectory");
     return out;
 }
@@ -120,7 +121,7 @@ std::optional<plot::Picture> draw_occupancy(const Results& results, const bug::W
     for (const auto& series : runs_of(results)) {
         plot::PathsOf condition{series.name, {}};
         for (const auto& directory : series.directories)
-            if (fs::exists(directory + "/trajectory.csv"))
+            if (fs::exists(directory + "/" + trajectory_file()))
                 for (auto& path : read_paths(directory)) condition.paths.push_back(std::move(path));
         if (!condition.paths.empty()) conditions.push_back(std::move(condition));
     }
@@ -171,7 +172,7 @@ std::optional<Loaded> load_for(const std::vector<PlotSpec>& specs, const Results
     auto loaded = load(input, diagnostics);
     if (!loaded) return loaded;
     for (const auto& s : specs) plot::check_structure(s, loaded->system, "forage plot", diagnostics);
-    if (trajectory && (!loaded->world || !fs::exists(results.directory + "/trajectory.csv")))
+    if (trajectory && (!loaded->world || !fs::exists(results.directory + "/" + trajectory_file())))
         diagnostics.error({}, "a trajectory needs the results of a run in a world");
     return loaded;
 }
@@ -182,9 +183,9 @@ std::optional<plot::Picture> draw_other(const PlotSpec& spec, Results& results,
     const std::string& title = results.context.run;
     std::optional<plot::Picture> picture;
     if (spec.kind == Kind::learning)
-        picture =
-            draw_learning(spec, runs_of(results), results.experiment ? results.directory + "/trials.csv" : "",
-                          title, part_of(results), diagnostics);
+        picture = draw_learning(spec, runs_of(results),
+                                results.experiment ? results.directory + "/" + trials_file() : "", title,
+                                part_of(results), diagnostics);
     else if (spec.kind == Kind::occupancy && !loaded->world)
         diagnostics.error({}, fmt::format("'{}': these runs have no world", spec.text));
     else if (spec.kind == Kind::occupancy)

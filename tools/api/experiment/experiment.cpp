@@ -234,7 +234,7 @@ std::vector<std::string> result_files(const PreparedExperiment& e) {
     for (const auto& file : fs::directory_iterator(e.directory)) {
         const std::string name = file.path().filename().string();
         if (file.is_regular_file() &&
-            (name.starts_with("results.") || name == "summary.csv" || name == "trials.csv"))
+            (name.starts_with("results.") || name == "summary.csv" || name == trials_file()))
             out.push_back(name);
     }
     for (std::size_t i = 0; i < e.runs.size(); ++i) {

@@ -12,6 +12,7 @@
 #include "core/run/experiment/exercise.h"
 #include "core/run/experiment/parts.h"
 #include "core/run/experiment/runs.h"
+#include "core/run/result_names.h"
 #include "tools/api/open/sources.h"
 
 namespace forage {
@@ -31,7 +32,7 @@ struct PreparedExperiment {
 
     std::string results_file() const { return directory + "/results.csv"; }
     std::string summary_file() const { return directory + "/summary.csv"; }
-    std::string trials_file() const { return directory + "/trials.csv"; }
+    std::string trials_file() const { return directory + "/" + forage::trials_file(); }
     /// Whether its runs leave files besides their numbers, when parts execute them.
     bool parts_leave_files() const { return !experiment.recordings.empty() || !experiment.plots.empty(); }
 };

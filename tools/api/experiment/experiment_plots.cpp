@@ -12,6 +12,7 @@
 #include "core/base/number.h"
 #include "core/base/separated.h"
 #include "core/base/table.h"
+#include "core/run/result_names.h"
 #include "tools/plot/heat.h"
 #include "tools/plot/lines.h"
 #include "tools/plot/occupancy.h"
@@ -168,15 +169,15 @@ std::vector<std::string> usual_plots(const RunTable& table, const std::string& d
             out.push_back((axes.size() == 2 ? "heat:" : "curve:") + table.measures[m]);
     const auto conditions = conditions_of(table).size();
     const bool runs = has_runs(directory);
-    const auto any = [&](const char* file) {
+    const auto any = [&](const std::string& file) {
         return runs && std::ranges::any_of(table.rows, [&](const auto& row) {
                    return fs::exists(fmt::format("{}/runs/{}/{}", directory, row.run, file));
                });
     };
     if (table.trials && conditions <= max_lines &&
-        (fs::exists(directory + "/trials.csv") || any("trials.csv")))
+        (fs::exists(directory + "/" + trials_file()) || any(trials_file())))
         out.emplace_back("learning");
-    if (conditions <= plot::max_maps && any("trajectory.csv")) out.emplace_back("occupancy");
+    if (conditions <= plot::max_maps && any(trajectory_file())) out.emplace_back("occupancy");
     return out;
 }
 
@@ -246,9 +247,9 @@ std::optional<plot::Picture> draw_learning(const PlotSpec& spec, const std::vect
     for (const auto& s : series) {
         auto& all = trials.emplace_back();
         for (const auto& directory : s.directories) {
-            if (!together && !fs::exists(directory + "/trials.csv")) continue;  // the run failed
+            if (!together && !fs::exists(directory + "/" + trials_file())) continue;  // the run failed
             all.push_back(together ? by_run[fs::path(directory).filename().string()]
-                                   : numbers_of_trials(directory + "/trials.csv", spec.what)[""]);
+                                   : numbers_of_trials(directory + "/" + trials_file(), spec.what)[""]);
             longest = std::max(longest, all.back().size());
         }
     }

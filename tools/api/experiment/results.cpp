@@ -7,6 +7,7 @@
 
 #include "core/base/named_file.h"
 #include "core/base/table.h"
+#include "core/run/result_names.h"
 
 namespace forage {
 namespace {
@@ -27,7 +28,7 @@ std::vector<ResultFiles::Recording> take_run(const std::string& directory, std::
     out.input = std::move(run->input);
     out.context.run = run_title(out.input);
     out.context.seconds_per_cycle = run->seconds_per_cycle;
-    if (const std::string path = directory + "/trials.csv"; fs::exists(path)) {
+    if (const std::string path = directory + "/" + trials_file(); fs::exists(path)) {
         TableReader trials = open_table(path);
         const auto first = trials.column("first_cycle");
         while (trials.next()) out.context.trials.push_back(trials.number(trials.fields()[first]));
@@ -69,8 +70,7 @@ Results results_in(const std::string& directory, std::optional<FinishedRun> run)
     std::vector<fs::path> files;
     for (const auto& entry : fs::directory_iterator(directory)) {
         const std::string name = entry.path().filename().string();
-        const bool recording =
-            observe::is_recording(name) && !name.starts_with("trials") && !name.starts_with("trajectory");
+        const bool recording = observe::is_recording(name) && !is_of_trials(name) && !is_of_trajectory(name);
         if (recording && entry.is_regular_file()) files.push_back(entry.path());
     }
     std::ranges::sort(files);
@@ -119,7 +119,7 @@ Results open_results(const std::string& path) {
 
 std::vector<plot::Path> read_paths(const std::string& directory) {
     std::vector<plot::Path> out;
-    TableReader trials = open_table(directory + "/trials.csv");
+    TableReader trials = open_table(directory + "/" + trials_file());
     for (const auto column = trials.column("outcome"); trials.next();) {
         const auto outcome = trials.fields()[column];
         if (outcome != "target" && outcome != "missed" && outcome != "unfinished")
@@ -128,7 +128,7 @@ std::vector<plot::Path> read_paths(const std::string& directory) {
     }
     trials.require_whole();
     if (out.empty()) out.push_back({{}, false, false, 1});  // a world without trials has one path, no outcome
-    TableReader points = open_table(directory + "/trajectory.csv");
+    TableReader points = open_table(directory + "/" + trajectory_file());
     const auto trial = points.column("trial"), x = points.column("x"), y = points.column("y");
     while (points.next()) {
         const auto& row = points.fields();

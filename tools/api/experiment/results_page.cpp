@@ -7,6 +7,7 @@
 
 #include "core/base/output_files.h"
 #include "core/base/table.h"
+#include "core/run/result_names.h"
 #include "core/run/run_json.h"
 #include "core/xml/source_tree.h"
 #include "tools/api/experiment/results.h"
@@ -57,7 +58,7 @@ std::string table(const fs::path& path) {
         rows += "</tr>\n";
     }
     std::string out = fmt::format("<h3><a href=\"{}\">{}</a></h3>\n", address(name), xml::encoded(name));
-    if (first.starts_with("cycle,") || name.starts_with("trajectory")) return out;
+    if (first.starts_with("cycle,") || is_of_trajectory(name)) return out;
     out += "<table>\n" + rows + "</table>\n";
     if (count > max_rows) out += fmt::format("<p>The first {} rows.</p>\n", max_rows);
     return out;

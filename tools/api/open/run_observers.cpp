@@ -12,6 +12,7 @@
 #include "core/run/checkpoint_file.h"
 #include "core/run/path_recorder.h"
 #include "core/run/recordings.h"
+#include "core/run/result_names.h"
 #include "core/run/run_json.h"
 #include "core/run/score_recorder.h"
 #include "tools/api/open/motor_statistics.h"
@@ -76,8 +77,7 @@ void add_plots(Preparation& p) {
 
 void add_trials(Preparation& p) {
     p.for_each_robot([&](std::size_t robot, const std::string& suffix) {
-        p.run().add(
-            std::make_unique<TrialRecorder>(*p.world, robot, p.run().layout(), "trials" + suffix + ".csv"));
+        p.run().add(std::make_unique<TrialRecorder>(*p.world, robot, p.run().layout(), trials_file(suffix)));
     });
 }
 
@@ -88,11 +88,11 @@ void add_scores(Preparation& p) {
 void add_paths(Preparation& p) {
     if (!p.spec().paths || p.spec().directory.empty()) return;
     p.for_each_robot([&](std::size_t robot, const std::string& suffix) {
-        const std::string name = "trajectory" + suffix;
-        const auto& path = p.run().add(std::make_unique<PathRecorder>(*p.world, robot, name + ".csv"));
+        const auto& path =
+            p.run().add(std::make_unique<PathRecorder>(*p.world, robot, trajectory_file(suffix)));
         const auto draw = [&](std::optional<plot::PlotSpec> wanted) {
-            p.run().add(std::make_unique<plot::TrajectoryPlotter>(*p.world, path, std::move(wanted), name,
-                                                                  p.format, p.run().title));
+            p.run().add(std::make_unique<plot::TrajectoryPlotter>(
+                *p.world, path, std::move(wanted), "trajectory" + suffix, p.format, p.run().title));
         };
         for (const auto& wanted : p.trajectories) draw(wanted);
         if (p.trajectories.empty()) draw({});
