@@ -56,7 +56,7 @@ std::string body_section(const World& world, std::size_t robot) {
     return out;
 }
 
-/// The command of each row, and of each column, of a motor group, which decode_motor() tells.
+/// Describes the speed that each row of a motor group stands for, and the turn of each column.
 std::string motor_section() {
     constexpr int side = 9;
     std::vector<std::string> rows = {"row"}, speeds = {"forward / transSpeed"}, columns = {"column"},
@@ -85,8 +85,9 @@ std::string range_section(const RobotSensors& sensors) {
         const RangeScanner scanner(s, sensors.link_pose());
         double nearest = s.min_range, activity = 0;
         scanner.to_activity({&nearest, 1}, {&activity, 1});
-        columns.push_back({"`" + s.name + "`", s.use() ? fmt::format("`{}`", s.use()->port) : "none", fmt::format("{} x 1", s.rays),
-                           rounded(scanner.height()), rounded(s.min_range), rounded(s.max_range),
+        columns.push_back({"`" + s.name + "`", s.use() ? fmt::format("`{}`", s.use()->port) : "none",
+                           fmt::format("{} x 1", s.rays), rounded(scanner.height()), rounded(s.min_range),
+                           rounded(s.max_range),
                            s.max_range == 1 ? "1 - d" : fmt::format("1 - d / {}", rounded(s.max_range)),
                            rounded(activity), rounded(s.noise), rounded(s.noise / s.max_range),
                            s.rate > 0 ? rounded(s.rate) : "one per step"});

@@ -25,8 +25,8 @@ struct NewTrial {
 
 using WorldChange = std::variant<Move, NewTrial>;
 
-/// Reads such a change: its first word is followed by a blank, or ends the text. Empty for a text that begins
-/// with another word. Throws Mistake.
+/// Reads a change of the world from a text that begins with the word "move" or "begin_trial". Returns nothing
+/// when it begins with another word. Throws Mistake.
 std::optional<WorldChange> parse_world_change(std::string_view text);
 
 }  // namespace forage::expression

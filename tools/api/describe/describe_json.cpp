@@ -227,7 +227,8 @@ json describe_world(const bug::World& world) {
         if (const auto& c = robot.sensors.camera_sensor())
             camera = {{"width", c->width}, {"height", c->height}};
         for (const auto& s : robot.sensors.range_sensors())
-            if (s.use() && s.purpose() != bug::RangePurpose::gripper) scans.push_back(s.use()->title);
+            if (s.use() && s.purpose() != bug::RangePurpose::gripper)
+                scans.push_back(std::string(s.use()->title));
         robots.push_back({{"name", robot.name},
                           {"radius", robot.body.radius},
                           {"gripper", world.has_gripper(i)},
@@ -277,14 +278,12 @@ json describe_parameters(Run& run, std::string_view item) {
     const auto type = use ? use->type : std::string();
     const auto* parameters = model::parameters_of(run.registry(), found->owner, type);
     constexpr const char* owners[] = {"group", "process", "connection"};
+    Diagnostics ignored;
+    const bool unique = model::find_item(system, path, "", ignored).has_value();
+    const auto& name = unique ? path : found->id;  // the id of a connection whose name is not unique
     json list = json::array();
     if (parameters)
-        for (const Parameter& p : *parameters) {
-            // A connection whose name is not unique is named by its id.
-            Diagnostics ignored;
-            const bool unique = model::find_item(system, path, "", ignored).has_value();
-            list.push_back(parameter_of(run, *found, p, unique ? path : found->id));
-        }
+        for (const Parameter& p : *parameters) list.push_back(parameter_of(run, *found, p, name));
     return {{"item", path},
             {"id", found->id},
             {"kind", owners[static_cast<int>(found->owner)]},
