@@ -6,8 +6,8 @@
 #include "core/base/output_files.h"
 #include "core/equations/declared_types.h"
 #include "core/equations/plugin_source.h"
-#include "core/model/arrays.h"
 #include "core/model/lookup.h"
+#include "core/model/validate.h"
 #include "core/xml/reader.h"
 #include "core/xml/writer.h"
 #include "tools/api/describe/system_description.h"
@@ -148,15 +148,20 @@ SynapseTable synapses(const SystemFile& file, const std::string& id, std::uint64
     Diagnostics diagnostics;
     if (std::ranges::find(file.model.connections, id, &model::Connection::id) == file.model.connections.end())
         throw InputError(fmt::format("there is no connection with the id '{}'", id));
-    const auto read = xml::parse_system(file.path, text_of(file), diagnostics);  // with its arrays
+    // A system that a program has built has not read its arrays, and its mistakes have places in its text.
+    Diagnostics found;
+    model::validate(file.model, *file.types, found);
+    std::optional<model::System> read;
+    if (found.failed()) read = xml::parse_system(file.path, text_of(file), diagnostics);
     throw_errors(diagnostics);
-    const auto it = std::ranges::find(read->connections, id, &model::Connection::id);
+    const model::System& system = read ? *read : file.model;
+    const auto it = std::ranges::find(system.connections, id, &model::Connection::id);
     const auto* type = file.types->synapse(model::synapse_of(*it).type);
     std::optional<engine::Simulation> simulation;  // weights that are learned begin as states
     if (type && !type->has_gain) simulation = compile(file, {}, seed, diagnostics);
     throw_errors(diagnostics);
     auto [list, strength] =
-        plot::synapses_of(*it, *read, *file.types, simulation ? &*simulation : nullptr, seed, diagnostics);
+        plot::synapses_of(*it, system, *file.types, simulation ? &*simulation : nullptr, seed, diagnostics);
     throw_errors(diagnostics);
     return {std::move(list.pre), std::move(list.post), std::move(list.distance), std::move(list.delay),
             std::move(strength)};

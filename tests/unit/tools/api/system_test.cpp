@@ -1,5 +1,6 @@
 // Systems with their files and types, as other programs use them.
 #include <filesystem>
+#include <utility>
 
 #include <forage/forage.h>
 #include <forage/system.h>
@@ -82,6 +83,25 @@ TEST_CASE("A synapse's strength is what it delivers") {
     CHECK(table.delay == std::vector{2, 2, 2});
     CHECK(table.strength == std::vector{0.5, 0.5, 0.5});
     CHECK_THROWS_AS(synapses(file, "nothing", 1), InputError);
+}
+
+TEST_CASE("Weights in a file beside the system are those of its synapses, also when it was built") {
+    const auto place = test::temporary_path("forage_system_weights_test");
+    make_directory(place.string());
+    write_file((place / "w.csv").string(), "1,0,0\n0,2,0\n0,0,3\n");
+    SystemFile file = echo();
+    file.path = (place / "echo.iqr").string();
+    model::Weights weights;
+    weights.file = "w.csv";
+    file.model.connections[0].pattern = weights;
+    file.model.connections[0].arborization = {};
+    write_file(file.path, text_of(file));
+    const SystemFile read = read_system(file.path);
+    for (const SystemFile* f : {&std::as_const(file), &read}) {
+        const auto strength = synapses(*f, f->model.connections[0].id, 1).strength;
+        CHECK(strength == std::vector{0.5, 0., 0., 0., 1., 0., 0., 0., 1.5});
+    }
+    std::filesystem::remove_all(place);
 }
 
 TEST_CASE("A diagram has the comments, phantoms and vertices of its page, and of no other page") {
