@@ -153,7 +153,7 @@ class Page:
             experiment = None
         if experiment and not (WHOLE and words[0] == "tutorial"):
             words = experiment.words(self.here)
-        done = subprocess.run([FORAGE, *words], cwd=self.here, capture_output=True, text=True, timeout=900)
+        done = subprocess.run([FORAGE, *words], cwd=self.here, capture_output=True, text=True)
         self.test.assertEqual(done.returncode, 0, command + "\n" + done.stdout + done.stderr)
         self.said[command] = done.stdout
         if experiment:
