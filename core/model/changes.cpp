@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include <fmt/format.h>
-
 #include "core/model/lookup.h"
 #include "core/model/members.h"
 
@@ -40,8 +38,8 @@ std::optional<std::vector<Assignment>> parameter_changes(const System& before, c
                                                          const Registry& registry) {
     if (!same_structure(before, after)) return std::nullopt;
     std::vector<Assignment> out;
-    const auto add = [&](Assignment::Owner owner, const std::string& id, std::string_view name,
-                         const TypeUse& was, const TypeUse& is) {
+    const auto add = [&](Assignment::Owner owner, const std::string& id, const TypeUse& was,
+                         const TypeUse& is) {
         const auto* parameters = parameters_of(registry, owner, is.type);
         if (!parameters) return;
         for (const Parameter& p : *parameters) {
@@ -53,7 +51,8 @@ std::optional<std::vector<Assignment>> parameter_changes(const System& before, c
                 if (!parsed) continue;
                 value = p.is_path ? ParameterValue(resolved(has->value, has->value_at)) : *parsed;
             }
-            out.push_back({owner, id, &p, value, fmt::format("{}.{}={}", name, p.name, to_text(value)), {}});
+            out.push_back({owner, id, &p, value, {}, {}});
+            out.back().text = assignment_text(after, out.back());
         }
     };
     const auto differ = [](const TypeUse& a, const TypeUse& b) {
@@ -62,16 +61,15 @@ std::optional<std::vector<Assignment>> parameter_changes(const System& before, c
     for (std::size_t i = 0; i < after.processes.size(); ++i) {
         const auto &was = before.processes[i], &is = after.processes[i];
         if (is.module && !(was.module == is.module))
-            add(Assignment::Owner::process, is.id, trim(is.name), *was.module, *is.module);
+            add(Assignment::Owner::process, is.id, *was.module, *is.module);
         for (std::size_t k = 0; k < is.groups.size(); ++k)
             if (differ(was.groups[k].neuron, is.groups[k].neuron))
-                add(Assignment::Owner::group, is.groups[k].id, path(after, is, is.groups[k]),
-                    was.groups[k].neuron, is.groups[k].neuron);
+                add(Assignment::Owner::group, is.groups[k].id, was.groups[k].neuron, is.groups[k].neuron);
     }
     for (std::size_t i = 0; i < after.connections.size(); ++i) {
         const auto &was = before.connections[i], &is = after.connections[i];
         if (is.synapse && differ(*was.synapse, *is.synapse))
-            add(Assignment::Owner::connection, is.id, unique_name(after, is), *was.synapse, *is.synapse);
+            add(Assignment::Owner::connection, is.id, *was.synapse, *is.synapse);
     }
     return out;
 }

@@ -16,6 +16,7 @@
 #include "core/model/constants.h"
 #include "core/model/expression.h"
 #include "core/model/lookup.h"
+#include "core/model/operations.h"
 #include "core/model/parts.h"
 
 namespace forage::model {
@@ -196,18 +197,33 @@ std::optional<Assignment> find_parameter(const System& system, const Registry& r
     return std::nullopt;
 }
 
+std::string assignment_name(const System& system, Assignment::Owner owner, const std::string& id) {
+    std::string name = name_of(system, id);
+    const auto named = find_owners(system, Registry(), name);
+    const bool alone = named.size() == 1 && named.front().kind == owner && named.front().id == id;
+    if (!alone || name.find('"') != name.npos) name = id;  // names have no escape for quotes
+    return name.find('=') == name.npos ? name : fmt::format("\"{}\"", name);
+}
+
+std::string assignment_text(const System& system, const Assignment& a) {
+    return fmt::format("{}.{}={}", assignment_name(system, a.owner, a.id), a.parameter->name,
+                       to_text(a.value));
+}
+
 std::vector<std::string> parameter_names(const System& system, const Registry& registry) {
     std::vector<std::string> out;
-    const auto add = [&](std::string_view where, const auto* type) {
-        for (const auto& p : type ? type->parameters : std::vector<Parameter>())
-            out.push_back(fmt::format("{}.{}", where, p.name));
+    const auto add = [&](Assignment::Owner owner, const std::string& id, const TypeUse& use) {
+        const auto* parameters = parameters_of(registry, owner, use.type);
+        if (!parameters || parameters->empty()) return;
+        const auto where = assignment_name(system, owner, id);
+        for (const auto& p : *parameters) out.push_back(fmt::format("{}.{}", where, p.name));
     };
     for (const auto& p : system.processes) {
-        if (p.module && p.module_enabled) add(trim(p.name), registry.module(p.module->type));
-        for (const auto& g : p.groups) add(path(system, p, g), registry.neuron(g.neuron.type));
+        if (p.module && p.module_enabled) add(Assignment::Owner::process, p.id, *p.module);
+        for (const auto& g : p.groups) add(Assignment::Owner::group, g.id, g.neuron);
     }
     for (const auto& c : system.connections)
-        if (c.synapse) add(unique_name(system, c), registry.synapse(c.synapse->type));
+        if (c.synapse) add(Assignment::Owner::connection, c.id, *c.synapse);
     for (auto& name : constant_names(system)) out.push_back(std::move(name));
     return out;
 }
@@ -326,9 +342,9 @@ void set(System& system, const Assignment& a) {
         return;
     }
     const bool as_written = !a.parameter->is_path;
-    set_parameter(use_of(system, a), a.parameter->name,
-                  as_written ? std::string(trim(std::string_view(a.text).substr(a.text.find('=') + 1)))
-                             : to_text(a.value));
+    set_parameter(
+        use_of(system, a), a.parameter->name,
+        as_written ? std::string(trim(expression::split_assignment(a.text).value)) : to_text(a.value));
     if (as_written && a.text.ends_with('}')) compute(system);
 }
 
@@ -336,11 +352,6 @@ System with(const System& system, const Assignment& assignment) {
     System out = system;
     set(out, assignment);
     return out;
-}
-
-void set_as_in(const System& other, System& system, const Assignment& a) {
-    if (!a.parameter) return set(system, a);
-    use_of(system, a).settings = use_of(other, a).settings;
 }
 
 void set(System& system, const Registry& registry, std::string_view assignment, Diagnostics& diagnostics,

@@ -40,6 +40,12 @@ std::optional<Assignment> parse_assignment(const System& system, const Registry&
                                            Diagnostics& diagnostics, Location at = {},
                                            Location value_at = {});
 
+/// The WHERE of assignments to an item: its path or name, or its id when that does not name it alone; in
+/// double quotes when it contains '='.
+std::string assignment_name(const System& system, Assignment::Owner owner, const std::string& id);
+/// An assignment of a parameter as parse_assignment() reads it in a system.
+std::string assignment_text(const System& system, const Assignment& assignment);
+
 /// The parameter that "WHERE.parameter" names, without a value. Reports mistakes like parse_assignment().
 std::optional<Assignment> find_parameter(const System& system, const Registry& registry,
                                          std::string_view name, std::string_view what,
@@ -51,8 +57,6 @@ std::vector<std::string> parameter_names(const System& system, const Registry& r
 void set(System& system, const Assignment& assignment);
 /// A copy of the system in which the parameter is set.
 System with(const System& system, const Assignment& assignment);
-/// Gives what an assignment changes the parameters that it has in another system, as they are written there.
-void set_as_in(const System& other, System& system, const Assignment& assignment);
 /// The value that the system has for a parameter: what its file sets, or the default of its type.
 ParameterValue value_of(const System& system, const Assignment& parameter);
 /// Gives a parameter its default.

@@ -408,20 +408,23 @@ Condition parse_condition(std::string_view text) {
     return whole(text, condition_hint, [](Parser& p) { return p.condition(); });
 }
 
-Assignment parse_assignment(std::string_view text) {
+NameAndValue split_assignment(std::string_view text) {
     const auto all = find_unquoted(text, "=");
-    const auto equals = all.empty() ? text.size() : all.front();
-    const auto where = text.substr(0, equals);
+    if (all.empty()) return {text, {}};
+    return {text.substr(0, all.front()), text.substr(all.front() + 1)};
+}
+
+Assignment parse_assignment(std::string_view text) {
+    const auto [where, value] = split_assignment(text);
     const auto dot = where.rfind('.');
     auto owner = trim(where.substr(0, dot));
-    if (equals == text.size() || dot == where.npos || owner.empty())
+    if (where.size() == text.size() || dot == where.npos || owner.empty())
         Parser::fail(
             "not an assignment",
             "write Process/Group.parameter=value, for example 'Reactive Layer/Approach.threshold=0.3'", 0);
     if (owner.size() > 2 && owner.starts_with('"') && owner.ends_with('"'))
         owner = owner.substr(1, owner.size() - 2);
-    return {piece(owner, text), piece(trim(where.substr(dot + 1)), text),
-            piece(trim(text.substr(equals + 1)), text)};
+    return {piece(owner, text), piece(trim(where.substr(dot + 1)), text), piece(trim(value), text)};
 }
 
 model::ScheduledChange parse_change(std::string_view text) {

@@ -175,6 +175,13 @@ struct Plot {
     static std::string_view name(Kind kind);
 };
 
+/// The name and the value of an assignment, which the first '=' outside double quotes separates. Without one,
+/// the text is the name.
+struct NameAndValue {
+    std::string_view name, value;
+};
+NameAndValue split_assignment(std::string_view text);
+
 // Each function reads a whole text. All of them throw Mistake.
 Source parse_source(std::string_view text);
 Quantity parse_quantity(std::string_view text);

@@ -42,13 +42,6 @@ std::string path(const System& system, const Process& process, const Group& grou
     return same > 1 ? plain + "#" + group.id : plain;
 }
 
-std::string_view unique_name(const System& system, const Connection& connection) {
-    const auto name = trim(connection.name);
-    const auto same =
-        std::ranges::count_if(system.connections, [&](const Connection& c) { return trim(c.name) == name; });
-    return same > 1 ? std::string_view(connection.id) : name;
-}
-
 std::vector<std::string> group_paths(const System& system) {
     std::unordered_map<std::string, int> uses;
     for (const auto& p : system.processes)

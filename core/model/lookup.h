@@ -33,9 +33,6 @@ class GroupIndex {
 /// the ends of names are removed.
 std::string path(const System& system, const Process& process, const Group& group);
 
-/// The name of a connection, or its id when several connections share that name.
-std::string_view unique_name(const System& system, const Connection& connection);
-
 /// The paths of all groups, in file order.
 std::vector<std::string> group_paths(const System& system);
 

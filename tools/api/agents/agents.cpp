@@ -8,6 +8,7 @@
 #include "bug_interface/simulation/world_queries.h"
 #include "bug_interface/world/sdf_reader.h"
 #include "core/base/sequence.h"
+#include "core/model/expression.h"
 #include "core/run/argument_checks.h"
 #include "core/run/weights.h"
 #include "tools/plot/film.h"
@@ -171,7 +172,7 @@ void AgentRun::open(Run run) {
 
 void AgentRun::set(const std::string& assignment) {
     run_->set(assignment);
-    assignments_[assignment.substr(0, assignment.find('='))] = assignment;
+    assignments_[std::string(expression::split_assignment(assignment).name)] = assignment;
 }
 
 void AgentRun::set_weights(const std::string& name, std::span<const double> weights) {

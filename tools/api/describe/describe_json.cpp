@@ -282,6 +282,7 @@ json describe_parameters(Run& run, std::string_view item) {
     const bool unique = model::find_item(system, path, "", ignored).has_value();
     const auto& name = unique ? path : found->id;  // the id of a connection whose name is not unique
     json list = json::array();
+    const auto name = model::assignment_name(system, found->owner, found->id);
     if (parameters)
         for (const Parameter& p : *parameters) list.push_back(parameter_of(run, *found, p, name));
     return {{"item", path},

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "core/base/shell_word.h"
+#include "core/model/expression.h"
 #include "core/types/parameter.h"
 
 namespace forage::studio {
@@ -51,12 +52,12 @@ Equivalent operator+(const Equivalent& first, const Equivalent& second) {
 Equivalent of_assignments(const std::vector<std::string>& assignments, std::uint64_t cycle) {
     Equivalent out;
     for (const std::string& a : assignments) {
-        const auto equal = a.find('=');
-        const std::string name = a.substr(0, equal), value = equal == a.npos ? "" : a.substr(equal + 1);
+        const auto [name, value] = expression::split_assignment(a);
         if (!out.shell.empty()) out.shell += ' ', out.python += '\n';
         out.shell += cycle == 0 ? "--set " + shell_word(a)
                                 : "--schedule " + shell_word(fmt::format("cycle {}: {}", cycle, a));
-        out.python += fmt::format("run.params[{}] = {}", literal(name), value_in_python(value));
+        out.python += fmt::format("run.params[{}] = {}", literal(std::string(name)),
+                                  value_in_python(std::string(value)));
     }
     return out;
 }

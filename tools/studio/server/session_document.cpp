@@ -7,6 +7,7 @@
 
 #include "core/model/build.h"
 #include "core/model/changes.h"
+#include "core/model/expression.h"
 #include "core/model/operations.h"
 #include "core/xml/writer.h"
 #include "tools/api/describe/describe_json.h"
@@ -33,6 +34,23 @@ bool is_in_system(const Diagnostics& diagnostics, const std::string& system) {
         return d.severity == Severity::error && d.where.file &&
                (d.where.file->path == system || d.where.file->path.ends_with(".iqrProcess"));
     });
+}
+
+/// The changes as assignments that the run takes between two cycles; empty when it does not take all of them.
+std::optional<std::vector<std::string>> live_assignments(const Run& run,
+                                                         const std::vector<model::Assignment>& changes) {
+    std::vector<std::string> out;
+    std::vector<model::Assignment> before_next_cycle;
+    Diagnostics refused;
+    for (const auto& a : changes) {
+        out.push_back(model::assignment_text(run.system(), a));
+        auto read = model::parse_assignment(run.system(), run.registry(), out.back(), "set", refused);
+        if (!read || read->id != a.id || read->value != a.value) return std::nullopt;
+        if (!a.parameter->at_start) before_next_cycle.push_back(std::move(*read));
+    }
+    run.simulation().check(before_next_cycle, refused);
+    if (refused.failed()) return std::nullopt;
+    return out;
 }
 
 }  // namespace
@@ -203,34 +221,41 @@ void Session::note_parameters(const std::vector<std::string>& assignments) {
 
 void Session::follow_document(const std::string& title, const Equivalent& script) {
     const auto& now = edited.document->system();
-    const auto changes = model::parameter_changes(edited.built, now, live.run->registry());
+    auto changes = model::parameter_changes(edited.built, now, live.run->registry());
     const auto before = edited.generation;
     const bool waited = edited.wanted.has_value();
     std::vector<std::string> ended;
+    const auto rebuild_run = [&] {
+        auto lost = lost_by_rebuild();
+        edited.current = rebuild();
+        if (edited.current) edited.built = now, ended = std::move(lost);
+    };
     if (!edited.document->readable()) {
         edited.problems = find_problems();
         edited.current = false;
     } else if (changes && !edited.wanted) {
         edited.problems = find_problems();
         edited.current = !has_errors(edited.problems);
-        if (edited.current) {
-            std::vector<std::string> assignments;
+        std::erase_if(*changes, [&](const auto& a) {  // a disabled module has no parameters in the run
+            return a.owner == model::Assignment::Owner::process &&
+                   !find_by(now.processes, a.id, &model::Process::id)->module_enabled;
+        });
+        const auto assignments = live_assignments(*live.run, *changes);
+        if (edited.current && !assignments) {
+            rebuild_run();
+        } else if (edited.current) {
             json values = json::object();
-            for (const auto& a : *changes) {
-                model::set_as_in(now, edited.built, a);
-                assignments.push_back(a.text);
-                values[a.text.substr(0, a.text.find('='))] = a.text.substr(a.text.find('=') + 1);
+            for (const auto& text : *assignments) {
+                const auto [name, value] = expression::split_assignment(text);
+                values[std::string(name)] = value;
             }
-            edited.built = now;
-            if (!assignments.empty()) {
-                act({{"command", "set"}, {"assignments", assignments}},
+            if (!assignments->empty())
+                act({{"command", "set"}, {"assignments", *assignments}},
                     {.title = title, .scripts = script, .values = values});
-            }
+            edited.built = now;
         }
     } else {
-        auto lost = lost_by_rebuild();
-        edited.current = rebuild();
-        if (edited.current) edited.built = now, ended = std::move(lost);
+        rebuild_run();
     }
     if (edited.current) edited.input.text = edited.document->text();
     if (edited.generation == before) {

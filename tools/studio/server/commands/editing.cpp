@@ -21,6 +21,7 @@ namespace {
 using editing::carry_out;
 using editing::json_of;
 using editing::title_of;
+using Owner = model::Assignment::Owner;
 
 constexpr std::size_t max_pairs = 200'000;  ///< in a reply
 
@@ -36,6 +37,7 @@ struct Description {
     const model::System& system;
     const model::System& saved;
     const Registry& registry;
+    const model::System& running;  ///< with the systems beside it, in which assignments name items
 
     /// The declaration of a type of this file; null for other types.
     static json declaration(const std::vector<model::TypeDeclaration>& all, const std::string& type) {
@@ -43,17 +45,17 @@ struct Description {
         return found ? describe_declaration(*found) : json();
     }
     template <class Type>
-    json settings(const model::TypeUse& use, const Type* type, const std::string& id,
-                  const std::string& name) {
+    json settings(const model::TypeUse& use, const Type* type, model::Assignment::Owner owner,
+                  const std::string& id) {
         if (!type) return json::array();
-        return describe_settings(use, model::find_use(saved, id), type->parameters, name);
+        return describe_settings(use, model::find_use(saved, id), type->parameters,
+                                 model::assignment_name(running, owner, id));
     }
     json of(const model::Group& g, const model::Process& p) {
-        const auto name = model::path(system, p, g);
         return {{"kind", "group"},
                 {"process", p.id},
                 {"name", trimmed(g.name)},
-                {"path", name},
+                {"path", model::path(system, p, g)},
                 {"color", g.color},
                 {"note", g.note.value_or("")},
                 {"icon", icon_of(g.icon)},
@@ -62,7 +64,7 @@ struct Description {
                 {"cells", model::shape(g.topology).cells},
                 {"linked", p.linked()},
                 {"declaration", declaration(system.neuron_types, g.neuron.type)},
-                {"parameters", settings(g.neuron, registry.neuron(g.neuron.type), g.id, name)}};
+                {"parameters", settings(g.neuron, registry.neuron(g.neuron.type), Owner::group, g.id)}};
     }
     json of(const model::Process& p) {
         json out = {{"kind", "process"},           {"name", trimmed(p.name)},  {"color", p.color},
@@ -74,7 +76,7 @@ struct Description {
         out["module"] = p.module->type;
         const auto* type = registry.module(p.module->type);
         if (!type) return out;
-        out["parameters"] = settings(*p.module, type, p.id, trimmed(p.name));
+        out["parameters"] = settings(*p.module, type, Owner::process, p.id);
         for (const auto& port : type->ports)
             out[port.is_output ? "outputs" : "inputs"].push_back(
                 {{"name", port.name},
@@ -119,9 +121,7 @@ struct Description {
         if (!c.synapse) return out;
         const auto* type = registry.synapse(c.synapse->type);
         if (!type) return out;
-        const auto same_name = std::ranges::count_if(
-            system.connections, [&](const auto& other) { return trimmed(other.name) == trimmed(c.name); });
-        out["parameters"] = settings(*c.synapse, type, c.id, same_name > 1 ? c.id : trimmed(c.name));
+        out["parameters"] = settings(*c.synapse, type, Owner::connection, c.id);
         for (const auto& f : type->feedback)
             out["feedback"].push_back({{"name", f.name},
                                        {"label", f.label},
@@ -225,10 +225,10 @@ json describe_item(Session& s, const Request& r) {
     const auto id = r.text("item");
     const auto& document = *s.edited.document;
     const auto& registry = s.run().registry();
-    json out = Description{document.system(), document.saved_system(), registry}.of(id);
+    const auto all = s.shown_system();
+    json out = Description{document.system(), document.saved_system(), registry, all}.of(id);
     if (out.is_null()) {  // another system that runs, too; it has no document
-        const auto all = s.shown_system();
-        out = Description{all, all, registry}.of(id);
+        out = Description{all, all, registry, all}.of(id);
         if (out.is_null()) throw InputError(fmt::format("there is no item with the id '{}'", id));
         out["other_system"] = true;
         if (out["kind"] != "comment") out["parameters"] = describe_item_parameters(s, id)["parameters"];

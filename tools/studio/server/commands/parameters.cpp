@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "core/model/expression.h"
 #include "tools/api/describe/describe_json.h"
 #include "tools/studio/server/commands.h"
 #include "tools/studio/server/commands/shared.h"
@@ -13,10 +14,12 @@ namespace {
 
 using Assignments = std::vector<std::string>;
 
-std::string name_in(const std::string& assignment) { return assignment.substr(0, assignment.find('=')); }
+std::string name_in(const std::string& assignment) {
+    return std::string(expression::split_assignment(assignment).name);
+}
 
 std::string value_in(const std::string& assignment) {
-    return assignment.substr(std::min(assignment.find('=') + 1, assignment.size()));
+    return std::string(expression::split_assignment(assignment).value);
 }
 
 bool acts_at_start(const model::Assignment& a) {
@@ -33,8 +36,9 @@ void check_file(const model::System& system, const model::Assignment& a) {
 
 json set_by_page(Session& s, const Request& r) {
     const auto assignments = r.texts("assignments");
-    std::string title = assignments.empty() ? "" : assignments.front();
-    if (const auto equal = title.find('='); equal != title.npos) title.replace(equal, 1, " = ");
+    std::string title;
+    if (!assignments.empty())
+        title = fmt::format("{} = {}", name_in(assignments.front()), value_in(assignments.front()));
     if (assignments.size() > 1) title += fmt::format(" and {} more", assignments.size() - 1);
     return set_parameters(s, assignments, title);
 }

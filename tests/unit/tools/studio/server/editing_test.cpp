@@ -189,6 +189,58 @@ TEST_CASE("a parameter changes the run and the file, however it is set, and is u
     CHECK(threshold()["loaded"] == 0.25);
 }
 
+TEST_CASE("a parameter is edited and undone whatever its item and other items are called") {
+    Editor e("team_a.iqr",
+             {FORAGE_SOURCE_DIR "/systems/worlds/team_arena.world", FORAGE_SOURCE_DIR "/systems/team_b.iqr"});
+    const auto check = [&](const std::string& id, const std::string& parameter, const std::string& value) {
+        const auto now = [&] {
+            const json run = e.result({{"command", "parameters"}, {"item", id}})["parameters"];
+            const json file = e.result({{"command", "item"}, {"item", id}})["parameters"];
+            for (std::size_t i = 0; i < run.size(); ++i) {
+                CHECK(run[i]["assignment"] == file[i]["assignment"]);
+                if (run[i]["name"] == parameter) return run[i];
+            }
+            return json();
+        };
+        const json before = now();
+        INFO(before.dump());
+        e.edit({{{"do", "parameter"}, {"id", id}, {"name", parameter}, {"value", value}}});
+        CHECK(now()["value"].dump() == value);
+        CHECK(e.last["action"]["command"] == "set");
+        CHECK(e.last["action"]["values"][before["assignment"].get<std::string>()] == value);
+        CHECK(e.last["document"]["undo"].get<std::string>().find(parameter) != std::string::npos);
+        const auto assignment =
+            fmt::format("{}={}", before["assignment"].get<std::string>(), before["value"].dump());
+        e.result({{"command", "set"}, {"assignments", {assignment}}});
+        CHECK(now()["value"] == before["value"]);
+        for (int i = 0; i < 2; ++i) e.result({{"command", "undo"}});
+        CHECK(now()["value"] == before["value"]);
+    };
+    const auto rename = [&](const std::string& id, const std::string& name) {
+        e.edit({{{"do", "rename"}, {"id", id}, {"name", name}}});
+    };
+    const auto process =
+        e.edit({{{"do", "add_process"}, {"name", "P=1"}, {"x", 0}, {"y", 0}}})[0].get<std::string>();
+    const auto group =
+        e.edit({{{"do", "add_group"}, {"process", process}, {"name", "A=B"}, {"x", 0}, {"y", 0}}})[0]
+            .get<std::string>();
+    check(group, "excGain", "0.5");
+    rename("a1.bug", "A=1"), check("a1.bug", "transSpeed", "0.5");
+    rename("a1.bug", "A_1"), check("a1.bug", "transSpeed", "0.25");
+    rename("a1.bug", "B_1 Bug"), check("a1.bug", "transSpeed", "0.25");
+    rename("a1.c.head-homing", "B_1 Head to Homing"), check("a1.c.head-homing", "weight", "0.25");
+}
+
+TEST_CASE("a parameter of a module that is switched off is edited without a run of it") {
+    Editor e("team_a.iqr", std::vector<std::string>{FORAGE_SOURCE_DIR "/systems/worlds/team_arena.world"});
+    e.edit({{{"do", "set"}, {"id", "a1.bug"}, {"property", "enabled"}, {"value", false}}});
+    e.edit({{{"do", "parameter"}, {"id", "a1.bug"}, {"name", "transSpeed"}, {"value", "0.5"}}});
+    CHECK(e.last["document"]["running_is_current"] == true);
+    e.edit({{{"do", "set"}, {"id", "a1.bug"}, {"property", "enabled"}, {"value", true}}});
+    CHECK(e.result({{"command", "parameters"}, {"item", "a1.bug"}}).dump().find("\"value\":0.5") !=
+          std::string::npos);
+}
+
 TEST_CASE("a system that cannot run is edited on, and the last run that could continues") {
     Editor e;
     const auto cells = e.last["system"]["processes"][0]["groups"][0];
