@@ -294,6 +294,7 @@ void Session::log(const LoggedAction& action) {
                     {"ended", action.ended}};
     if (!action.item.empty()) message["item"] = action.item;
     if (!action.values.is_null()) message["values"] = action.values;
+    if (!action.failed.empty()) message["failed"] = action.failed;
     pages.status_due = true;
     pages.broadcast(message);
 }
@@ -304,11 +305,20 @@ void Session::repeat_actions() {
 }
 
 void Session::cycle() {
-    repeat_actions();
-    live.run->step();
-    ++live.version;
-    live.history.after_cycle(*live.run);
-    if (live.reference) step_reference();
+    try {
+        repeat_actions();
+        live.run->step();
+        ++live.version;
+        live.history.after_cycle(*live.run);
+    } catch (const std::exception& e) {
+        live.pace.running = false, live.failed = e.what(), pages.status_due = true;
+        throw;
+    }
+    if (live.reference) try {
+            step_reference();
+        } catch (const std::exception& e) {  // it has ended, and the run continues
+            log({.command = "compare_end", .title = "end of the comparison", .failed = e.what()});
+        }
     if (live.pause_when && live.pause_when->condition.reached(*live.run, live.pause_when->since))
         live.pause_when.reset(), live.pace.running = false, pages.status_due = true;
     const std::uint64_t done = live.run->cycle() - 1;
@@ -321,21 +331,35 @@ void Session::cycle() {
     }
     live.pace.pages_time += rows_time_;
     if (!live.sampler) return;
-    live.sampler->recorder->record(live.run->simulation());
+    try {
+        live.sampler->recorder->record(live.run->simulation());
+    } catch (const std::exception& e) {
+        close_sampler(e.what());
+        return;
+    }
     if (done % live.sampler->what.every == 0) ++live.sampler->rows;
     if (live.sampler->left && --*live.sampler->left == 0) close_sampler();
 }
 
-void Session::close_sampler() {
-    if (!live.sampler) return;
-    auto sampler = *std::exchange(live.sampler, std::nullopt);  // it has ended also when its disk is full
-    pages.status_due = true;
-    sampler.recorder->close();
-    finish(sampler.what.file);
+std::string Session::close_sampler(std::string failed) {
+    if (!live.sampler) return {};
+    auto sampler = *std::exchange(live.sampler, std::nullopt);
     auto& what = sampler.what;
+    pages.status_due = true;
+    try {
+        sampler.recorder->close();
+        finish(what.file);
+    } catch (const std::exception& e) {
+        if (failed.empty()) failed = e.what();
+    }
     what.until.reset();
     if (sampler.rows > 0) what.until = live.run->cycle() - 1;
-    log({.command = "sample_stop", .title = "end of recording", .scripts = of_sampling_end(what)});
+    if (!failed.empty()) failed = fmt::format("the recording into '{}' has failed: {}", what.file, failed);
+    log({.command = "sample_stop",
+         .title = "end of recording",
+         .scripts = of_sampling_end(what),
+         .failed = failed});
+    return failed;
 }
 
 void Session::go_to(std::uint64_t cycle) {
@@ -385,8 +409,7 @@ double Session::work(double now) {
                 cycle();
                 if (clock_now() > end) break;
             }
-        } catch (const std::exception& e) {
-            live.pace.running = false, live.failed = e.what(), pages.status_due = true;
+        } catch (const std::exception&) {  // cycle() has noted it
         }
         pace.measure(now, live.run->cycle());
     }

@@ -43,6 +43,7 @@ struct LoggedAction {
     std::vector<std::string> ended = {};  ///< with the run before: "past", "comparison", "recording"
     std::string item = {};                ///< the group that it acts on
     json values = nullptr;                ///< of parameters that it sets
+    std::string failed = {};              ///< why a recording or a comparison has ended
 };
 
 /// Executes the commands of pages between cycles, and runs the system. docs/design/studio-protocol.md
@@ -67,7 +68,8 @@ class Session {
     const json& killed() const { return recovery.killed; }
     /// What was wrong with the system when it was opened; empty when it runs.
     const Diagnostics& mistakes() const { return edited.mistakes; }
-    /// The user ends the session: nothing of it is kept.
+    /// The user ends the session: nothing of it is kept. Throws std::runtime_error when its recording is not
+    /// complete.
     void end();
 
     void connect(int client);
@@ -141,7 +143,9 @@ class Session {
     const HitCounts& hits() const;
     json system_message();
     json world_message();
-    void close_sampler();
+    /// Ends the recording, because it `failed` or for another reason. Returns what went wrong; empty when
+    /// its file is complete.
+    std::string close_sampler(std::string failed = {});
 
     // ---- the document (session_document.cpp) ----
     /// What is wrong with the document, and with the files that its modules name.

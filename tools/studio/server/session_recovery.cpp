@@ -226,8 +226,9 @@ void Session::recover() {
 }
 
 void Session::end() {
-    close_sampler();
+    const auto failed = close_sampler();
     if (recovery.files) recovery.files->forget_running();
+    if (!failed.empty()) throw std::runtime_error(failed);
 }
 
 }  // namespace forage::studio

@@ -126,7 +126,7 @@ json stop_sampler(Session& s, const Request&) {
     json out = {{"file", nullptr}, {"rows", 0}};
     if (s.live.sampler) out = {{"file", s.live.sampler->what.file}, {"rows", s.live.sampler->rows}};
     s.live.waiting_sampler.reset(), s.pages.status_due = true;
-    s.close_sampler();
+    if (const auto failed = s.close_sampler(); !failed.empty()) throw InputError(failed);
     return out;
 }
 

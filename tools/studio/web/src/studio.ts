@@ -125,6 +125,7 @@ function receive(message: ServerMessage): void {
       break;
     case 'action': {
       actions.add(message, run.status?.epoch);
+      if (message.failed) actions.notify('error', message.failed);
       const ended = endedText(message, run.status?.epoch);
       if (ended) actions.notify('info', ended);
       break;

@@ -9,6 +9,8 @@
 #include <set>
 
 #include <fmt/format.h>
+#include <signal.h>
+#include <sys/resource.h>
 
 #include "bug_interface/simulation/world.h"
 #include "core/base/output_files.h"
@@ -844,4 +846,101 @@ TEST_CASE("two runs go side by side from any moment: one as it was, one with ano
     f.result({{"command", "seek"}, {"cycle", 300}});
     CHECK(f.session.run().digest() ==
           alone.session.run().digest());  // the reference changes no bit of the run
+}
+
+namespace {
+
+/// Lets the process write at most so many bytes into a file, as a full disk does.
+class FileLimit {
+  public:
+    explicit FileLimit(rlim_t bytes) {
+        ::getrlimit(RLIMIT_FSIZE, &before_);
+        ::signal(SIGXFSZ, SIG_IGN);
+        const rlimit now = {bytes, before_.rlim_max};
+        ::setrlimit(RLIMIT_FSIZE, &now);
+    }
+    ~FileLimit() { ::setrlimit(RLIMIT_FSIZE, &before_); }
+    FileLimit(const FileLimit&) = delete;
+    FileLimit& operator=(const FileLimit&) = delete;
+
+  private:
+    rlimit before_{};
+};
+
+}  // namespace
+
+TEST_CASE("a recording whose disk is full ends with its reason, and the run continues") {
+    Fixture f;
+    f.session.connect(1);
+    const auto file = std::filesystem::temp_directory_path() / "forage-full-disk.csv";
+    const auto sample = [&] {
+        f.result({{"command", "sample"},
+                  {"file", file.string()},
+                  {"sources", {"Bug/Place Cells"}},
+                  {"mode", "overwrite"}});
+    };
+    const auto reason = [&] {
+        for (const auto& m : f.messages[1])
+            if (m["type"] == "action" && m["command"] == "sample_stop") return m.value("failed", "");
+        return std::string("still recording");
+    };
+    sample();
+    {
+        const FileLimit full(20'000);
+        f.result({{"command", "step"}, {"cycles", 2000}});
+    }
+    CHECK(f.session.run().cycle() == 2000);
+    CHECK(f.session.live.failed.empty());
+    CHECK(!f.session.live.sampler);
+    CHECK(reason().starts_with("the recording into '" + file.string() + "' has failed: "));
+    f.result({{"command", "step"}});
+
+    f.messages[1].clear();
+    sample();
+    f.result({{"command", "step"}, {"cycles", 10}});
+    {
+        const FileLimit full(0);  // the rows are still in memory
+        CHECK(f.ask({{"command", "sample_stop"}})["ok"] == false);
+    }
+    CHECK(!reason().empty());
+    f.result({{"command", "step"}});
+    std::filesystem::remove(file), std::filesystem::remove(partial(file.string()));
+}
+
+TEST_CASE("a cycle that cannot be computed is noted however it was asked for") {
+    struct Failing final : Observer {
+        void before_cycle(RunView& run) override {
+            if (run.time.cycle == 5) throw std::runtime_error("cycle 5 is cursed");
+        }
+    };
+    const auto begin = [](Fixture& f) { f.session.run().add(std::make_unique<Failing>()); };
+    const auto check = [](Fixture& f) {
+        CHECK(f.session.live.failed == "cycle 5 is cursed");
+        CHECK(!f.session.running());
+        CHECK(f.ask({{"command", "run"}})["ok"] == false);
+        CHECK(f.result({{"command", "seek"}, {"cycle", 0}})["cycle"] == 0);
+        CHECK(f.session.live.failed.empty());
+    };
+    {
+        Fixture f;
+        begin(f);
+        CHECK(f.ask({{"command", "step"}, {"cycles", 10}})["ok"] == false);
+        check(f);
+    }
+    {
+        Fixture f;
+        begin(f);
+        f.result({{"command", "speed"}, {"mode", "free"}});
+        f.result({{"command", "run"}});
+        for (double now = 1; f.session.running(); ++now) f.session.work(now);
+        check(f);
+    }
+    {
+        Fixture f;
+        f.result({{"command", "step"}, {"cycles", 10}});
+        f.result({{"command", "seek"}, {"cycle", 3}});
+        begin(f);
+        CHECK(f.ask({{"command", "seek"}, {"cycle", 8}})["ok"] == false);
+        check(f);
+    }
 }

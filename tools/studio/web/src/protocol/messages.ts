@@ -190,6 +190,8 @@ export interface ActionMessage {
   python: string;
   /** What has ended, as the run was rebuilt or has restarted. */
   ended: ('past' | 'comparison' | 'recording')[];
+  /** Why a recording or a comparison has ended before its time. */
+  failed?: string;
 }
 
 export type Problem = { severity?: string; file?: string; line?: number; column?: number; message: string; hint?: string };
