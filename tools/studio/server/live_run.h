@@ -2,32 +2,19 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <nlohmann/json.hpp>
-
 #include "core/base/hit_counts.h"
 #include "core/observe/recorder.h"
-#include "core/run/run.h"
 #include "core/run/run_spec.h"
 #include "core/run/stop_condition.h"
+#include "tools/studio/server/course.h"
 #include "tools/studio/server/equivalents.h"
-#include "tools/studio/server/history.h"
 #include "tools/studio/server/pace.h"
-#include "tools/studio/server/touches.h"
 
 namespace forage::studio {
-
-/// A parameter that was set.
-struct Change {
-    std::string assignment;
-    nlohmann::json loaded;  ///< the value of the file
-};
-using Changes = std::map<std::string, Change>;  ///< by the name of the parameter
 
 /// How a page wants to record.
 struct SamplerRequest {
@@ -45,23 +32,15 @@ struct Sampler {
     std::optional<observe::Recorder> recorder;
 };
 
-/// A second run from the same past, in step with the run. It repeats what the run did. It is begun as the
-/// run was, so that the past alone reproduces it.
-struct Reference {
+/// A second run from the same past, in step with the run. It repeats what the run did, and begins as the run
+/// began, so that the past alone reproduces it.
+struct Reference : Course {
     std::uint64_t from = 0;  ///< the cycle since which they may differ
-    std::unique_ptr<Run> run;
-    Touches* touches = nullptr;
-    History past;
-    Changes changed;
 };
 
-struct LiveRun {
-    std::unique_ptr<Run> run;
+struct LiveRun : Course {
     RunInput begun;     ///< with the parameters of the last stop
     std::string files;  ///< digest of the files of system and world, when they were read
-    Touches* touches = nullptr;
-    History history;
-    Changes changed;
     std::optional<Reference> reference;
     Pace pace;
     std::string failed;  ///< why a cycle could not be computed

@@ -272,7 +272,8 @@ void check_module_file(const std::string& type, const std::string& parameter, co
     if (file && !path.empty() && !is_device(path, file->device)) check_readable(path, {file->kind});
 }
 
-void check_module_files(const model::System& system, Diagnostics& diagnostics) {
+bool check_module_files(const model::System& system, Diagnostics& diagnostics) {
+    const int errors = diagnostics.errors();
     for (const auto& p : system.processes) {
         if (!p.module) continue;
         for (const auto& setting : p.module->settings) try {
@@ -287,6 +288,7 @@ void check_module_files(const model::System& system, Diagnostics& diagnostics) {
                 diagnostics.error(setting.value_at, found.message, found.hint);
             }
     }
+    return diagnostics.errors() == errors;
 }
 
 bool may_quote(const SourceFile& file) {

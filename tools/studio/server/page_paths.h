@@ -49,8 +49,9 @@ void check_writable(const Session& session, const std::string& path, FileKind ki
 /// The path of a system or a world that comes with Forage. Throws InputError for a name that leads elsewhere.
 std::string shipped_path(const Session& session, const std::string& name);
 
-/// Reports modules of a system that name a file or device of another kind than theirs.
-void check_module_files(const model::System& system, Diagnostics& diagnostics);
+/// Reports modules of a system that name a file or device of another kind than theirs. Returns whether there
+/// are none.
+bool check_module_files(const model::System& system, Diagnostics& diagnostics);
 /// Throws InputError when a parameter of a type of modules names such a file or device.
 void check_module_file(const std::string& type, const std::string& parameter, const std::string& path);
 

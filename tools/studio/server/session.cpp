@@ -68,28 +68,9 @@ void Session::read_plot_config(const Run& run) {
     if (!plot_config_.empty()) pages.layout = read_layout(run, plot_config_);
 }
 
-std::pair<std::unique_ptr<Run>, Touches*> Session::make_run(const RunInput& input, std::string* files) {
-    Diagnostics diagnostics;
-    const Sources sources = read_sources(input, diagnostics);
-    const int errors = diagnostics.errors();
-    if (sources.system) check_module_files(*sources.system, diagnostics);
-    if (diagnostics.errors() > errors)
-        throw InputError(std::move(diagnostics));  // no module reads such a file
-    auto loaded = assemble(sources, input, diagnostics);
-    throw_errors(diagnostics);
-    auto run = Run::make(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
-                         {.seed = input.seed}, diagnostics);
-    throw_errors(diagnostics);
-    auto& touches = run->add(std::make_unique<Touches>());
-    run->start();
-    run->title = run_title(input);
-    if (files) *files = digest_of_files(input, sources);
-    return {std::make_unique<Run>(std::move(*run)), &touches};
-}
-
 void Session::open(RunInput input) {
     std::string files;
-    auto [run, touches] = make_run(input, &files);
+    Course built = open_run(input, &files);
     RunInput begun = input;
     // The text is kept, because the file may change during the run.
     if (begun.text.empty() && !begun.system.ends_with(".iqrProcess")) begun.text = read_file(begun.system);
@@ -97,8 +78,7 @@ void Session::open(RunInput input) {
     end_reference();
     live.files = std::move(files);
     live.begun = std::move(begun), edited.input = std::move(input);
-    live.run = std::move(run);
-    live.touches = touches;
+    live.take_run(std::move(built));
     pages.rebind(*live.run);  // at once: what follows may fail, and streams must not read the run before
     live.failed.clear(), live.pace.running = live.sampled = false, live.pause_when.reset();
     live.history.begin(*live.run);
@@ -273,11 +253,11 @@ json Session::execute(int client, const json& command) {
 }
 
 void Session::act(const json& action, LoggedAction logged) {
-    repeat_actions();
+    live.repeat_actions();
     const auto& command = find_command(action.at("command"));
     logged.command = command.name;
     logged.scripts = command.script(*this, action) + logged.scripts;
-    command.repeat(*this, action);
+    command.repeat(live, action);
     ++edited.generation, ++live.version;
     live.history.act(live.run->cycle(), action, logged.title);
     log(logged);
@@ -299,26 +279,19 @@ void Session::log(const LoggedAction& action) {
     pages.broadcast(message);
 }
 
-void Session::repeat_actions() {
-    while (const auto* action = live.history.due(live.run->cycle()))
-        find_command(action->command.at("command")).repeat(*this, action->command);
-}
-
-void Session::cycle() {
+void Session::compute(const std::function<void()>& cycles) {
     try {
-        repeat_actions();
-        live.run->step();
-        ++live.version;
-        live.history.after_cycle(*live.run);
+        cycles();
     } catch (const std::exception& e) {
         live.pace.running = false, live.failed = e.what(), pages.status_due = true;
         throw;
     }
-    if (live.reference) try {
-            step_reference();
-        } catch (const std::exception& e) {  // it has ended, and the run continues
-            log({.command = "compare_end", .title = "end of the comparison", .failed = e.what()});
-        }
+}
+
+void Session::cycle() {
+    compute([this] { live.step(); });
+    ++live.version;
+    compute_beside([](Course& course) { course.step(); });
     if (live.pause_when && live.pause_when->condition.reached(*live.run, live.pause_when->since))
         live.pause_when.reset(), live.pace.running = false, pages.status_due = true;
     const std::uint64_t done = live.run->cycle() - 1;
@@ -376,19 +349,15 @@ void Session::go_to(std::uint64_t cycle) {
             live.history = std::move(past);
         }
         replay(cycle);
-        if (live.reference) with_reference([&] { replay(cycle); });
+        compute_beside([&](Course& course) { course.replay(cycle); });
         return;
     }
     while (live.run->cycle() < cycle) this->cycle();
 }
 
 void Session::replay(std::uint64_t cycle) {
-    live.history.restore(*live.run, cycle);
     rewound();
-    while (live.run->cycle() < cycle) {
-        repeat_actions();
-        live.run->step();
-    }
+    compute([&] { live.replay(cycle); });
 }
 
 void Session::set_speed(const std::string& mode, double value) {

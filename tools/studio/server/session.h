@@ -110,26 +110,22 @@ class Session {
     struct Killed;
     /// Reads what was kept of a session. Throws InputError when it cannot continue.
     static Killed read_killed(std::string_view content);
-    /// A started run of the system, with the touches of pages. Throws InputError.
-    std::pair<std::unique_ptr<Run>, Touches*> make_run(const RunInput& input, std::string* files = nullptr);
     void open(RunInput input);  ///< throws InputError, and leaves the run as it is then
     void reset();               ///< opens the same system with the parameters as they are now
     void cycle();               ///< one cycle, with what follows it
-    void repeat_actions();
-    /// Lets the session work on the reference instead of its run.
-    void swap_reference();
-    /// Does something with the second run in the place of the run. When that fails, the second run ends.
-    void with_reference(const std::function<void()>& act);
-    void step_reference();
-    /// Lets the session work on a copy of its run, in the state of the last checkpoint before `cycle`, until
-    /// act() returns.
-    void with_copy(std::uint64_t cycle, const std::function<void()>& act);
+    /// A copy of the run in the state of the last checkpoint before `cycle`, with the past up to it.
+    Course copy_at(std::uint64_t cycle);
+    /// Lets a second run with the same past go beside the run, from `cycle` on.
     void begin_reference(std::uint64_t cycle);
-    /// Lets a second run with this past go beside the run, from `cycle` on. Its run is made here.
-    void run_beside(Reference made, std::uint64_t cycle);
+    /// Makes the run of a reference, which has a past only, and repeats this past up to `cycle`.
+    void run_beside(Reference reference, std::uint64_t cycle);
     void end_reference();
     void go_to(std::uint64_t cycle);
-    void replay(std::uint64_t cycle);  ///< from the last checkpoint before it
+    void replay(std::uint64_t cycle);
+    /// Computes cycles of the run, which has failed when this throws.
+    void compute(const std::function<void()>& cycles);
+    /// Computes cycles of the second run, if there is one. It ends when this fails, and the run continues.
+    void compute_beside(const std::function<void(Course&)>& cycles);
     void rewound();
     /// Adds the parameters that were set in systems beside the document.
     void set_beside_document(RunInput& input) const;

@@ -57,8 +57,7 @@ std::optional<std::vector<std::string>> live_assignments(const Run& run,
 
 std::vector<Document::Problem> Session::find_problems() const {
     Diagnostics files = edited.document->reading();
-    check_module_files(edited.document->system(), files);
-    if (files.errors() > edited.document->reading().errors()) return edited.document->located(files);
+    if (!check_module_files(edited.document->system(), files)) return edited.document->located(files);
     return edited.document->problems(live.run->registry(), live.run->environment());
 }
 
@@ -284,23 +283,11 @@ bool Session::rebuild(bool continues) {
     set_beside_document(set);
     Diagnostics diagnostics = edited.document->reading();
     const Sources sources = read_sources(set, edited.document->system(), diagnostics);
-    std::optional<Run> run;
-    Touches* touches = nullptr;
-    const auto build = [&](bool go_on) {
-        run.reset();
-        const int errors = diagnostics.errors();
-        check_module_files(edited.document->system(), diagnostics);
-        if (diagnostics.errors() > errors) return;  // no module reads such a file
-        auto loaded = assemble(sources, set, diagnostics);
-        if (!loaded) return;
-        run = Run::make(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
-                        {.seed = live.run->seed()}, diagnostics);
-        if (!run) return;
-        touches = &run->add(std::make_unique<Touches>());
-        if (!run->start(diagnostics))
-            run.reset();
-        else if (go_on)
-            run->adopt(*live.run);
+    std::optional<Course> built;
+    const auto build = [&](bool adopts) {
+        built.reset();  // two runs do not open the same device
+        built = build_run(sources, set, live.run->seed(), diagnostics);
+        if (built && adopts) built->run->adopt(*live.run);
     };
     try {
         try {
@@ -309,34 +296,34 @@ bool Session::rebuild(bool continues) {
             diagnostics = edited.document->reading();
             build(false);
         }
-        if (run && edited.wanted) read_plot_config(*run);
+        if (built && edited.wanted) read_plot_config(*built->run);
     } catch (const InputError& e) {
         for (const auto& d : e.diagnostics().all()) diagnostics.add(d);
-        run.reset();
+        built.reset();
     } catch (const std::exception& e) {
         diagnostics.error({}, e.what());
-        run.reset();
+        built.reset();
     }
     edited.problems = edited.document->located(diagnostics);
-    if (!run) return false;
+    if (!built) return false;
+    Run& run = *built->run;
     close_sampler();
     end_reference();
     for (const auto& [number, manipulation] : live.touches->groups()) {
         auto settings = manipulation.settings();
         const auto& id = live.run->layout().groups[static_cast<std::size_t>(number)].id;
-        const auto& groups = run->layout().groups;
+        const auto& groups = run.layout().groups;
         const auto it = std::ranges::find_if(groups, [&](const auto& g) {
             return g.id == id && !settings.patterns.empty() &&
                    static_cast<int>(settings.patterns[0].size()) == g.shape.cells;
         });
         if (it == groups.end()) continue;
         settings.group = static_cast<int>(it - groups.begin());
-        touches->put(std::move(settings));
+        built->touches->put(std::move(settings));
     }
-    const bool restarted = run->cycle() != live.run->cycle();
-    run->title = live.run->title;
-    live.run = std::make_unique<Run>(std::move(*run));
-    live.touches = touches;
+    const bool restarted = run.cycle() != live.run->cycle();
+    run.title = live.run->title;
+    live.take_run(std::move(*built));
     if (auto& pause = live.pause_when) {
         Diagnostics unknown;
         pause->condition =

@@ -120,7 +120,7 @@ void Session::save() {
         archive(rest, *edited.document, edited.steps, edited.current, waits);
         if (waits) archive_input(archive, wanted);
         live.history.save(archive, live.run->cycle());
-        if (live.reference) live.reference->past.save(archive, live.run->cycle());
+        if (live.reference) live.reference->history.save(archive, live.run->cycle());
         recovery.files->write(content);
         recovery.length = content.size();
         recovery.failed.clear();
@@ -168,7 +168,7 @@ Session::Killed Session::read_killed(std::string_view content) {
     if (const auto& compare = rest.at("compare"); !compare.is_null()) {
         Reference made;
         made.from = compare.at("from"), made.changed = changes_of(compare.at("changed"));
-        made.past.load(archive);
+        made.history.load(archive);
         out.reference = std::move(made);
     }
     out.changed = changes_of(rest.at("changed"));

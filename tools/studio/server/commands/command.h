@@ -50,7 +50,7 @@ struct Command {
     bool changes_run = false;
     json (*apply)(Session& session, const Request& request) = nullptr;
     /// Of an action that the history repeats: changes the run as the noted action says.
-    void (*repeat)(Session& session, const json& action) = nullptr;
+    void (*repeat)(Course& course, const json& action) = nullptr;
     /// The action that undoes such an action, before it is applied. Throws InputError for one that is wrong.
     json (*inverse)(Session& session, const json& action) = nullptr;
     /// How to do such an action without the studio, before it is applied. Actions that are not repeated give

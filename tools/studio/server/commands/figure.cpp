@@ -90,30 +90,29 @@ Results results_of_past(Session& s, const FigureNeeds& needs, const std::string&
         throw InputError(fmt::format("the figure needs {} cycles of the past", now - begin),
                          "begin it later, or use forage run and forage plot");
     FinishedRun out;
-    s.with_copy(begin, [&] {
-        Run& run = s.run();
-        std::vector<model::RecordingSpec> recordings;
-        for (const auto& source : needs.sources) recordings.push_back({{source}, 1});
-        RecordOptions options;
-        options.from = needs.from;
-        Diagnostics diagnostics;
-        auto files = recorded_files(recordings, options, run.layout(), diagnostics);
-        throw_errors(diagnostics);
-        ResultFiles written(folder);
-        if (!files.empty())
-            run.add(std::make_unique<Recordings>(std::move(files), options, folder,
-                                                 std::vector<std::pair<std::string, std::string>>()))
-                .begin_files(written);
-        // Plots over time show trials.
-        if (const auto* world = run.environment(); world && world->robot_names().size() == 1) {
-            run.add(std::make_unique<TrialRecorder>(*world, 0, run.layout(), "trials.csv"));
-            if (needs.paths) run.add(std::make_unique<PathRecorder>(*world, 0, "trajectory.csv"));
-        }
-        while (run.cycle() < now) s.repeat_actions(), run.step();
-        run.finish(written);
-        if (!written.problems().empty()) throw InputError(written.problems().front());
-        out.seconds_per_cycle = run.seconds_per_cycle(), out.recordings = written.recordings();
-    });
+    Course copy = s.copy_at(begin);
+    Run& run = *copy.run;
+    std::vector<model::RecordingSpec> recordings;
+    for (const auto& source : needs.sources) recordings.push_back({{source}, 1});
+    RecordOptions options;
+    options.from = needs.from;
+    Diagnostics diagnostics;
+    auto files = recorded_files(recordings, options, run.layout(), diagnostics);
+    throw_errors(diagnostics);
+    ResultFiles written(folder);
+    if (!files.empty())
+        run.add(std::make_unique<Recordings>(std::move(files), options, folder,
+                                             std::vector<std::pair<std::string, std::string>>()))
+            .begin_files(written);
+    // Plots over time show trials.
+    if (const auto* world = run.environment(); world && world->robot_names().size() == 1) {
+        run.add(std::make_unique<TrialRecorder>(*world, 0, run.layout(), "trials.csv"));
+        if (needs.paths) run.add(std::make_unique<PathRecorder>(*world, 0, "trajectory.csv"));
+    }
+    while (run.cycle() < now) copy.repeat_actions(), run.step();
+    run.finish(written);
+    if (!written.problems().empty()) throw InputError(written.problems().front());
+    out.seconds_per_cycle = run.seconds_per_cycle(), out.recordings = written.recordings();
     out.input = s.live.begun;
     return results_of(folder, std::move(out));
 }

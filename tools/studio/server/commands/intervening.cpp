@@ -26,20 +26,20 @@ std::string name_of(Manipulation::Mode mode) {
 }
 
 /// The number of a group. Throws InputError.
-int find_group(Session& s, const std::string& name) {
+int find_group(const Run& run, const std::string& name) {
     Diagnostics diagnostics;
-    const auto column = observe::find_column(s.run().layout(), name, "group", diagnostics);
+    const auto column = observe::find_column(run.layout(), name, "group", diagnostics);
     throw_errors(diagnostics);
     if (column->connection >= 0) throw InputError(fmt::format("'{}' is not a group", name));
     return column->group;
 }
 
-const engine::Layout::Group& group_at(Session& s, int number) {
-    return s.run().layout().groups[static_cast<std::size_t>(number)];
+const engine::Layout::Group& group_at(const Run& run, int number) {
+    return run.layout().groups[static_cast<std::size_t>(number)];
 }
 
-const engine::Layout::Group& group_of(Session& s, const std::string& name) {
-    return group_at(s, find_group(s, name));
+const engine::Layout::Group& group_of(const Run& run, const std::string& name) {
+    return group_at(run, find_group(run, name));
 }
 
 /// Patterns for a group. Throws InputError when they do not fit it.
@@ -54,13 +54,13 @@ Patterns patterns_for(const engine::Layout::Group& group, const json& given) {
 }
 
 /// The settings in an action. Throws InputError.
-Manipulation::Settings settings_in(Session& s, const json& action) {
+Manipulation::Settings settings_in(const Run& run, const json& action) {
     Manipulation::Settings out;
-    out.group = find_group(s, action.at("group").get<std::string>());
+    out.group = find_group(run, action.at("group").get<std::string>());
     out.mode = std::ranges::find(manipulation_modes, action.at("mode").get<std::string>(), [](const auto& m) {
                    return std::string(m.first);
                })->second;
-    out.patterns = patterns_for(group_at(s, out.group), action.at("patterns"));
+    out.patterns = patterns_for(group_at(run, out.group), action.at("patterns"));
     out.every = action.at("every"), out.step = action.at("step"), out.backwards = action.at("backwards");
     if (const auto it = action.find("times"); it != action.end() && !it->is_null()) out.times = *it;
     if (out.step > out.patterns.size())
@@ -71,13 +71,13 @@ Manipulation::Settings settings_in(Session& s, const json& action) {
 
 /// The action that makes the manipulation of a group what it is now.
 json present_action(Session& s, const json& action) {
-    const int group = find_group(s, action.at("group").get<std::string>());
+    const int group = find_group(s.run(), action.at("group").get<std::string>());
     const auto& found = s.live.touches->groups();
     const auto it = found.find(group);
-    if (it == found.end()) return {{"command", "revoke"}, {"group", group_at(s, group).path}};
+    if (it == found.end()) return {{"command", "revoke"}, {"group", group_at(s.run(), group).path}};
     const auto& m = it->second.settings();
     return {{"command", "manipulate"},
-            {"group", group_at(s, group).path},
+            {"group", group_at(s.run(), group).path},
             {"mode", name_of(m.mode)},
             {"patterns", m.patterns},
             {"every", m.every},
@@ -89,15 +89,15 @@ json present_action(Session& s, const json& action) {
 json manipulate_group(Session& s, const Request& r) {
     json action = r.all();
     action["command"] = "manipulate";
-    const auto settings = settings_in(s, action);  // also checks
-    const auto& path = group_at(s, settings.group).path;
+    const auto settings = settings_in(s.run(), action);  // also checks
+    const auto& path = group_at(s.run(), settings.group).path;
     action["group"] = path;
     return take_step(s, action, {.title = fmt::format("{} {}", name_of(settings.mode), path), .item = path});
 }
 
 DrivenGroup driven_by(Session& s, const json& manipulation) {
-    const auto settings = settings_in(s, manipulation);
-    const auto& g = group_at(s, settings.group);
+    const auto settings = settings_in(s.run(), manipulation);
+    const auto& g = group_at(s.run(), settings.group);
     const bool full = g.shape.cells == g.shape.width * g.shape.height;
     return {g.path,         name_of(settings.mode), settings.patterns, full ? g.shape.width : g.shape.cells,
             settings.every, settings.step,          settings.times,    settings.backwards};
@@ -108,8 +108,8 @@ Equivalent script_manipulate(Session& s, const json& action) {
 }
 
 json revoke_manipulation(Session& s, const Request& r) {
-    const int group = find_group(s, r.text("group"));
-    const auto& path = group_at(s, group).path;
+    const int group = find_group(s.run(), r.text("group"));
+    const auto& path = group_at(s.run(), group).path;
     if (!s.live.touches->groups().contains(group))
         throw InputError(fmt::format("'{}' is not manipulated", path));
     return take_step(s, {{"command", "revoke"}, {"group", path}}, {.title = "revoke " + path, .item = path});
@@ -128,7 +128,7 @@ Equivalent script_revoke(Session& s, const json& action) {
 json list_manipulations(Session& s, const Request&) {
     json out = json::array();
     for (const auto& [group, m] : s.live.touches->groups()) {
-        out.push_back(present_action(s, {{"group", group_at(s, group).path}}));
+        out.push_back(present_action(s, {{"group", group_at(s.run(), group).path}}));
         out.back().erase("command");
     }
     return {{"manipulations", std::move(out)}};
@@ -139,7 +139,7 @@ json read_patterns(Session& s, const Request& r) {
         throw InputError("command 'patterns_read': 'file' is missing",
                          "a path, or the 'text' of such a file");
     Diagnostics diagnostics;
-    const auto shape = group_of(s, r.text("group")).shape;
+    const auto shape = group_of(s.run(), r.text("group")).shape;
     const auto file = r.has("file") ? r.text("file") : "patterns";
     if (!r.has("text")) check_readable(file, {FileKind::patterns});
     const auto patterns = r.has("text") ? observe::parse_patterns(r.text("text"), file, shape, diagnostics)
@@ -150,7 +150,7 @@ json read_patterns(Session& s, const Request& r) {
 
 json write_patterns(Session& s, const Request& r) {
     const auto file = r.text("file");
-    const auto& group = group_of(s, r.text("group"));
+    const auto& group = group_of(s.run(), r.text("group"));
     const auto patterns = patterns_for(group, r["patterns"]);
     check_writable(s, file, FileKind::patterns, r.flag("overwrite"));
     write_file(file, observe::patterns_text(patterns, group.shape));
@@ -198,9 +198,9 @@ json begin_next_trial(Session& s, const Request& r) {
     return {{"generation", s.edited.generation}};
 }
 
-void repeat_begin_trial(Session& s, const json& action) {
+void repeat_begin_trial(Course& course, const json& action) {
     const auto start = action.at("start").get<int>();
-    begin_trial(s.run(), action.at("robot").get<std::string>(),
+    begin_trial(*course.run, action.at("robot").get<std::string>(),
                 start < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(start)));
 }
 
@@ -221,7 +221,7 @@ std::vector<Command> intervening_commands() {
          .result = generation,
          .changes_run = true,
          .apply = manipulate_group,
-         .repeat = [](Session& s, const json& action) { s.live.touches->put(settings_in(s, action)); },
+         .repeat = [](Course& c, const json& action) { c.touches->put(settings_in(*c.run, action)); },
          .inverse = present_action,
          .script = script_manipulate},
         {.name = "revoke",
@@ -231,8 +231,8 @@ std::vector<Command> intervening_commands() {
          .changes_run = true,
          .apply = revoke_manipulation,
          .repeat =
-             [](Session& s, const json& action) {
-                 s.live.touches->remove(find_group(s, action.at("group").get<std::string>()));
+             [](Course& c, const json& action) {
+                 c.touches->remove(find_group(*c.run, action.at("group").get<std::string>()));
              },
          .inverse = present_action,
          .script = script_revoke},
@@ -263,8 +263,8 @@ std::vector<Command> intervening_commands() {
          .changes_run = true,
          .apply = move_body,
          .repeat =
-             [](Session& s, const json& action) {
-                 move(s.run(), moved_body(action), action.at("x"), action.at("y"),
+             [](Course& c, const json& action) {
+                 move(*c.run, moved_body(action), action.at("x"), action.at("y"),
                       action.at("heading").get<double>());
              },
          .inverse = move_back,

@@ -43,16 +43,16 @@ json set_by_page(Session& s, const Request& r) {
     return set_parameters(s, assignments, title);
 }
 
-void repeat_set(Session& s, const json& action) {
+void repeat_set(Course& course, const json& action) {
+    const auto& system = course.run->system();
     for (const auto& text : action.at("assignments").get<Assignments>()) {
         Diagnostics diagnostics;
-        const auto change =
-            model::parse_assignment(s.run().system(), s.run().registry(), text, "set", diagnostics);
+        const auto change = model::parse_assignment(system, course.run->registry(), text, "set", diagnostics);
         throw_errors(diagnostics);
         const auto loaded =
-            std::visit([](const auto& v) { return json(v); }, model::value_of(s.run().system(), *change));
-        s.live.changed.try_emplace(name_in(text), Change{{}, loaded}).first->second.assignment = text;
-        if (!acts_at_start(*change)) s.run().simulation().set(*change);
+            std::visit([](const auto& v) { return json(v); }, model::value_of(system, *change));
+        course.changed.try_emplace(name_in(text), Change{{}, loaded}).first->second.assignment = text;
+        if (!acts_at_start(*change)) course.run->simulation().set(*change);
     }
 }
 

@@ -50,7 +50,7 @@ json exchange_step(Session& s, Steps& from, Steps& to, bool back) {
 }  // namespace
 
 json take_step(Session& s, const json& action, LoggedAction logged, UndoStep step) {
-    s.repeat_actions();
+    s.live.repeat_actions();
     step.title = logged.title, step.redo = action;
     step.undo = find_command(action.at("command")).inverse(s, action);
     s.act(action, std::move(logged));

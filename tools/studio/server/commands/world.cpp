@@ -93,7 +93,7 @@ json save_world(Session& s, const Request& r) {
         throw FileExists(fmt::format("'{}' was changed outside since it was read", file), "overwrite it");
     RunInput wanted = s.live.begun;  // with the text that the system had: its file may have changed
     wanted.world = file, wanted.world_text = world.text;
-    s.make_run(wanted);  // a world in which the system cannot run is not written
+    open_run(wanted);  // a world in which the system cannot run is not written
     auto forms = begun_again(s, of_world, file);
     if (file != world.path) {
         const auto copy = of_world_copy(s.edited_file(world.path), file);

@@ -242,7 +242,7 @@ TEST_CASE("a run pauses when a condition holds, as that of the command line does
         for (double now = 100; f.session.running() && now < 1e5; ++now) f.session.work(now);
         return f.session.run().cycle();
     };
-    auto run = f.session.make_run(Fixture::input()).first;
+    const auto run = open_run(Fixture::input()).run;
     run->until({.trials = 3, .until = {"trial 2 and cycle > 40"}, .in_code = true});
     CHECK(go() == run->cycle());
     const auto logged = std::ranges::find(f.messages[1], "action", [](const json& m) { return m["type"]; });
