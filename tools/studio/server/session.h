@@ -96,45 +96,27 @@ class Session {
     bool running() const { return live.pace.running; }
     std::uint64_t generation() const { return edited.generation; }
 
-    // ---- for commands (commands/) ----
+    // ---- for commands ----
     LiveRun live;
     EditedSystem edited;
     Pages pages;
     RecoveryState recovery;
 
-    void read_plot_config(const Run& run);  ///< throws InputError
-    void save();                            ///< into the folder of states; notes what goes wrong
-    void note_use() const;                  ///< among the latest files, with its world and its seed
-    void restart_autosave();                ///< under the name that the system has now
-    void look_for_killed();
-    struct Killed;
-    /// Reads what was kept of a session. Throws InputError when it cannot continue.
-    static Killed read_killed(std::string_view content);
-    void open(RunInput input);  ///< throws InputError, and leaves the run as it is then
-    void reset();               ///< opens the same system with the parameters as they are now
-    void cycle();               ///< one cycle, with what follows it
+    void note_use() const;    ///< among the latest files, with its world and its seed
+    void restart_autosave();  ///< under the name that the system has now
+    void reset();             ///< opens the same system with the parameters as they are now
+    void cycle();             ///< one cycle, with what follows it
     /// A copy of the run in the state of the last checkpoint before `cycle`, with the past up to it.
     Course copy_at(std::uint64_t cycle);
     /// Lets a second run with the same past go beside the run, from `cycle` on.
     void begin_reference(std::uint64_t cycle);
-    /// Makes the run of a reference, which has a past only, and repeats this past up to `cycle`.
-    void run_beside(Reference reference, std::uint64_t cycle);
     void end_reference();
     void go_to(std::uint64_t cycle);
-    void replay(std::uint64_t cycle);
-    /// Computes cycles of the run, which has failed when this throws.
-    void compute(const std::function<void()>& cycles);
-    /// Computes cycles of the second run, if there is one. It ends when this fails, and the run continues.
-    void compute_beside(const std::function<void(Course&)>& cycles);
-    void rewound();
-    /// Adds the parameters that were set in systems beside the document.
-    void set_beside_document(RunInput& input) const;
     /// Changes the run as an action says, notes it in the history, and logs it with its scripts. Throws
     /// InputError.
     void act(const json& action, LoggedAction logged);
     void log(const LoggedAction& action);
     json status() const;
-    json trials_status() const;
     /// The hits among the finished trials of the first robot, of a run that has trials.
     const HitCounts& hits() const;
     json system_message();
@@ -144,15 +126,6 @@ class Session {
     std::string close_sampler(std::string failed = {});
 
     // ---- the document (session_document.cpp) ----
-    /// What is wrong with the document, and with the files that its modules name.
-    std::vector<Document::Problem> find_problems() const;
-    /// Edits the system that `input` names; what was edited before is forgotten.
-    void begin_document(const RunInput& input);
-    /// Opens a system, also one that cannot run or be read, as the constructor does.
-    void open_any(const RunInput& input);
-    /// Opens the document of a system whose files have the mistakes `found`, and runs a system without
-    /// content until they are corrected. Throws InputError when nothing can be corrected in it.
-    void open_with_mistakes(const RunInput& input, const Diagnostics& found);
     /// Opens another system, and tells the pages. Throws InputError, and leaves everything as it is then.
     void open_document(const RunInput& input);
     /// Makes the run what the document says, as far as that can run, and tells the pages.
@@ -166,13 +139,9 @@ class Session {
     std::vector<std::string> lost_by_rebuild() const;
     /// Changes parameters in the document, too, when its items have them. Returns whether its text changed.
     bool set_in_document(const std::vector<std::string>& assignments);
-    /// Resolves changes of parameters of the items of a system, and leaves out others.
-    std::vector<model::Assignment> assignments_in(const model::System& system,
-                                                  const std::vector<std::string>& texts) const;
     /// The run has these parameters of the document.
     void note_parameters(const std::vector<std::string>& assignments);
     void broadcast_document();
-    void note_opening();  ///< the system of the document is another one now
     /// Gives a description of parameters the values of the saved file. Returns false for an item of another
     /// file.
     bool saved_values(json& described) const;
@@ -186,11 +155,48 @@ class Session {
     /// written, so that the next reader of the tutorial finds them as they are.
     bool comes_with_forage(const std::string& path) const;
     const std::string& shipped() const { return shipped_; }
-    /// The file of the document or of the world as commands may write it: one that comes with Forage in a
-    /// copy in the working directory, and none for a backup.
+    /// Returns a file that may be written: a shipped file is redirected to a copy in the working directory. A
+    /// backup is read-only, so its path becomes empty.
     EditedFile edited_file(const std::string& path) const;
 
   private:
+    // ---- the run ----
+    void read_plot_config(const Run& run);  ///< throws InputError
+    void open(RunInput input);              ///< throws InputError, and leaves the run as it is then
+    /// Makes the run of a reference, which has a past only, and repeats this past up to `cycle`.
+    void run_beside(Reference reference, std::uint64_t cycle);
+    void replay(std::uint64_t cycle);
+    /// Computes cycles of the run, which has failed when this throws.
+    void compute(const std::function<void()>& cycles);
+    /// Computes cycles of the second run, if there is one. It ends when this fails, and the run continues.
+    void compute_beside(const std::function<void(Course&)>& cycles);
+    void rewound();
+    /// Adds the parameters that were set in systems beside the document.
+    void set_beside_document(RunInput& input) const;
+    json trials_status() const;
+
+    // ---- recovery (session_recovery.cpp) ----
+    void save();  ///< into the folder of states; notes what goes wrong
+    void look_for_killed();
+    struct Killed;
+    /// Reads what was kept of a session. Throws InputError when it cannot continue.
+    static Killed read_killed(std::string_view content);
+
+    // ---- the document (session_document.cpp) ----
+    /// What is wrong with the document, and with the files that its modules name.
+    std::vector<Document::Problem> find_problems() const;
+    /// Edits the system that `input` names; what was edited before is forgotten.
+    void begin_document(const RunInput& input);
+    /// Opens a system, also one that cannot run or be read, as the constructor does.
+    void open_any(const RunInput& input);
+    /// Opens the document of a system whose files have the mistakes `found`, and runs a system without
+    /// content until they are corrected. Throws InputError when nothing can be corrected in it.
+    void open_with_mistakes(const RunInput& input, const Diagnostics& found);
+    /// Resolves changes of parameters of the items of a system, and leaves out others.
+    std::vector<model::Assignment> assignments_in(const model::System& system,
+                                                  const std::vector<std::string>& texts) const;
+    void note_opening();  ///< the system of the document is another one now
+
     double rows_time_ = 0;     ///< s of a cycle for streams of every cycle
     std::string shipped_;      ///< the folder of the systems that come with Forage
     std::string plot_config_;  ///< the file of the layout; may be empty
