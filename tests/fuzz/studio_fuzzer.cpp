@@ -7,7 +7,7 @@
 #include "core/xml/panel.h"
 #include "core/xml/plot_config.h"
 #include "tests/fuzz/holds.h"
-#include "tools/studio/server/http_server.h"
+#include "tools/studio/server/requests.h"
 #include "tools/studio/server/session.h"
 
 namespace {

@@ -16,6 +16,8 @@
 #include <boost/beast/websocket.hpp>
 #include <fmt/format.h>
 
+#include "tools/studio/server/requests.h"
+
 namespace forage::studio {
 namespace {
 

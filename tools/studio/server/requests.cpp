@@ -1,6 +1,6 @@
-// What a request may be: checks without sockets.
+#include "tools/studio/server/requests.h"
+
 #include <algorithm>
-#include <optional>
 #include <random>
 
 #include <fmt/format.h>
@@ -9,7 +9,6 @@
 #include "core/base/number.h"
 #include "core/run/input_error.h"
 #include "tools/api/edit/json_text.h"
-#include "tools/studio/server/http_server.h"
 #include "tools/studio/server/pages.h"
 #include "tools/studio/server/problems.h"
 

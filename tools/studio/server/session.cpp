@@ -19,10 +19,10 @@
 #include "tools/plot/world_map.h"
 #include "tools/studio/server/commands.h"
 #include "tools/studio/server/commands/command.h"
-#include "tools/studio/server/http_server.h"
 #include "tools/studio/server/page_paths.h"
 #include "tools/studio/server/plot_layout.h"
 #include "tools/studio/server/problems.h"
+#include "tools/studio/server/requests.h"
 
 namespace forage::studio {
 namespace {

@@ -10,6 +10,7 @@
 #include "tools/studio/server/assets.h"
 #include "tools/studio/server/engine_thread.h"
 #include "tools/studio/server/http_server.h"
+#include "tools/studio/server/requests.h"
 
 namespace forage::studio {
 

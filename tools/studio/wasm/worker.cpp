@@ -10,7 +10,7 @@
 #include <emscripten.h>
 
 #include "core/run/input_error.h"
-#include "tools/studio/server/http_server.h"
+#include "tools/studio/server/requests.h"
 #include "tools/studio/server/session.h"
 
 // JavaScript.

@@ -13,7 +13,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/paths.h"
 #include "tools/studio/server/commands/command.h"
-#include "tools/studio/server/http_server.h"
+#include "tools/studio/server/requests.h"
 
 namespace {
 

@@ -18,7 +18,7 @@
 #include "tests/support/catch.h"
 #include "tests/support/paths.h"
 #include "tests/support/studio_protocol.h"
-#include "tools/studio/server/http_server.h"
+#include "tools/studio/server/requests.h"
 
 namespace {
 
