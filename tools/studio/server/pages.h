@@ -42,9 +42,6 @@ struct Pages {
     void clear() {
         for (auto& [id, client] : clients) client.clear();
     }
-    void end_reference() {
-        for (auto& [id, client] : clients) client.end_reference();
-    }
 };
 
 }  // namespace forage::studio

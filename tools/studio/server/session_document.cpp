@@ -157,8 +157,6 @@ json Session::document_message() const {
             {"opened_with_mistakes", edited.wanted.has_value()},
             {"problems", problems_of(edited.problems, edited.document->system(), live.run->registry())},
             {"outside", edited.outside ? json("changed") : json(nullptr)},
-            {"undo", UndoSteps::title(edited.steps.undo)},
-            {"redo", UndoSteps::title(edited.steps.redo)},
             {"running_is_current", edited.current}};
 }
 

@@ -125,7 +125,7 @@ TEST_CASE("a system is edited, undone and saved, and its text stays its author's
     CHECK(e.text() == before);
     CHECK(e.group("new").is_null());
     CHECK(e.last["document"]["dirty"] == true);
-    CHECK(e.last["document"]["undo"].is_null());
+    CHECK(e.session->status()["undo"].is_null());
     e.result({{"command", "redo"}});
     CHECK(e.group("new")["name"] == "New");
     e.edit({{{"do", "remove"}, {"ids", {"new", ids[1]}}}});
@@ -208,7 +208,7 @@ TEST_CASE("a parameter is edited and undone whatever its item and other items ar
         CHECK(now()["value"].dump() == value);
         CHECK(e.last["action"]["command"] == "set");
         CHECK(e.last["action"]["values"][before["assignment"].get<std::string>()] == value);
-        CHECK(e.last["document"]["undo"].get<std::string>().find(parameter) != std::string::npos);
+        CHECK(e.session->status()["undo"].get<std::string>().find(parameter) != std::string::npos);
         const auto assignment =
             fmt::format("{}={}", before["assignment"].get<std::string>(), before["value"].dump());
         e.result({{"command", "set"}, {"assignments", {assignment}}});
@@ -1224,7 +1224,7 @@ TEST_CASE("a world is edited, undone, saved, and the run restarts in it") {
                                  {{"do", "move"}, {"id", "Bug"}, {"x", 0.25}, {"y", -1.5}}}}})["ids"];
     CHECK(ids[0] == "Wall_2");
     CHECK(e.last["world_document"]["dirty"] == true);
-    CHECK(e.last["document"]["undo"] == "add in the world");
+    CHECK(e.session->status()["undo"] == "add in the world");
     e.result({{"command", "undo"}});
     CHECK(e.last["world_document"]["dirty"] == false);
     e.result({{"command", "redo"}});

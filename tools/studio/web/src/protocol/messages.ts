@@ -248,8 +248,6 @@ export interface DocumentMessage {
   problems: DocumentProblem[];
   /** "changed" when another program wrote the file. */
   outside: string | null;
-  undo: string | null;
-  redo: string | null;
   running_is_current?: boolean;
 }
 

@@ -31,7 +31,7 @@ const threshold = { name: 'threshold', assignment: 'P/a.threshold' } as Paramete
 
 beforeEach(() => {
   sent.length = 0;
-  editing.message = { type: 'document', file: '/a.iqr', backup_of: null, shipped: false, name: 'A', dirty: false, readable: true, opened_with_mistakes: false, problems: [], outside: null, undo: null, redo: null };
+  editing.message = { type: 'document', file: '/a.iqr', backup_of: null, shipped: false, name: 'A', dirty: false, readable: true, opened_with_mistakes: false, problems: [], outside: null };
   model.system = {
     type: 'system',
     name: 's',
