@@ -43,8 +43,9 @@ void Course::take_run(Course&& built) { run = std::move(built.run), touches = bu
 
 std::optional<Course> build_run(const Sources& sources, const RunInput& input, std::uint64_t seed,
                                 Diagnostics& diagnostics) {
-    // No module reads a file before all files are checked.
-    if (sources.system && !check_module_files(*sources.system, diagnostics)) return std::nullopt;
+    // Nothing reads a file before all files are checked.
+    if (sources.system && !check_system_files(*sources.system, known_types(sources.plugins), diagnostics))
+        return std::nullopt;
     auto loaded = assemble(sources, input, diagnostics);
     if (!loaded) return std::nullopt;
     auto run = Run::make(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),

@@ -44,8 +44,8 @@ struct Course {
     void take_run(Course&& built);
 };
 
-/// Builds and starts a run whose modules name no file that a page may not name. Empty when `diagnostics` has
-/// an error.
+/// Builds and starts a run of a system that names no file that a page may not name. Empty when `diagnostics`
+/// has an error.
 std::optional<Course> build_run(const Sources& sources, const RunInput& input, std::uint64_t seed,
                                 Diagnostics& diagnostics);
 /// Reads the files of a run, builds it and starts it. `digest` becomes that of the files. Throws InputError.

@@ -16,9 +16,12 @@
 #include "core/base/number.h"
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
+#include "core/model/arrays.h"
+#include "core/model/edit.h"
 #include "core/model/lookup.h"
 #include "modules/devices/gamepad/evdev.h"
 #include "tools/api/edit/json_text.h"
+#include "tools/api/edit/operations.h"
 #include "tools/studio/server/commands/shared.h"
 
 namespace forage::studio {
@@ -49,6 +52,11 @@ const KindOfFile& about(FileKind kind) {
         {FileKind::layout, "a layout", {".layout.json"}, {}, "it is JSON with 'dock' or 'plots'"},
         {FileKind::patterns, "a file of patterns", {".txt"}, {}, "it holds numbers only"},
         {FileKind::table, "a table", {".csv"}, {}, "a row is cycle,process,target,v0,v1,..."},
+        {FileKind::numbers,
+         "a file of numbers",
+         {".npy", ".csv"},
+         {},
+         "it is of NumPy, or its rows have numbers with commas between them"},
         {FileKind::recording,
          "a recording",
          {".csv", ".dat", ".npy", ".h5"},
@@ -136,9 +144,25 @@ bool holds_table(std::string_view text) {
     return has_rows;
 }
 
+constexpr std::string_view numpy = "\x93NUMPY";
+
+bool holds_numbers(std::string_view text) {
+    if (text.starts_with(numpy)) return true;
+    while (!text.empty()) {
+        auto line = next_line(text);
+        if (is_comment(line)) continue;
+        while (!line.empty()) {  // a column beside the numbers may have names
+            const auto end = std::min(line.find(','), line.size());
+            if (is_number(line.substr(0, end))) return true;
+            line.remove_prefix(std::min(end + 1, line.size()));
+        }
+    }
+    return false;
+}
+
 bool holds_recording(std::string_view text) {
     using namespace std::string_view_literals;
-    if (text.starts_with("\x93NUMPY") || text.starts_with("\x89HDF\r\n\x1a\n"sv)) return true;
+    if (text.starts_with(numpy) || text.starts_with("\x89HDF\r\n\x1a\n"sv)) return true;
     while (!text.empty())
         if (const auto line = next_line(text); !is_comment(line))
             return line.starts_with("cycle,") || line.starts_with("cycle;") || model::trim(line) == "cycle";
@@ -187,7 +211,7 @@ constexpr ModuleFile module_files[] = {{"moduleReplay", "file", FileKind::table}
                                        {"moduleVideo", "DeviceName", FileKind::camera, "/dev/video"},
                                        {"moduleJoystick", "DeviceName", FileKind::gamepad, "/dev/input/"}};
 
-/// The file or device that a parameter of a type of modules names; null when it names none.
+/// The file or device that a parameter of a type of modules names; null when it is not known.
 const ModuleFile* module_file(std::string_view type, std::string_view parameter) {
     const auto* const found = std::ranges::find_if(
         module_files, [&](const auto& f) { return f.type == type && f.parameter == parameter; });
@@ -212,6 +236,8 @@ bool is_of_kind(std::string_view text, FileKind kind) {
             return holds_patterns(text);
         case FileKind::table:
             return holds_table(text);
+        case FileKind::numbers:
+            return holds_numbers(text);
         case FileKind::recording:
             return holds_recording(text);
         case FileKind::gamepad:
@@ -267,28 +293,69 @@ std::string shipped_path(const Session& session, const std::string& name) {
     return (fs::path(session.shipped()) / path).string();
 }
 
-void check_module_file(const std::string& type, const std::string& parameter, const std::string& path) {
-    const auto* file = module_file(type, parameter);
-    if (file && !path.empty() && !is_device(path, file->device)) check_readable(path, {file->kind});
+void check_parameter_file(const std::string& type, const Parameter& parameter, const std::string& path) {
+    const auto* file = module_file(type, parameter.name);
+    if (path.empty() || (!file && !parameter.is_path)) return;
+    if (!file)  // of a plugin: whatever it reads, it is data
+        return check_readable(path,
+                              {FileKind::numbers, FileKind::patterns, FileKind::table, FileKind::recording});
+    if (!is_device(path, file->device)) check_readable(path, {file->kind});
 }
 
-bool check_module_files(const model::System& system, Diagnostics& diagnostics) {
+bool check_system_files(const model::System& system, const Registry& registry, Diagnostics& diagnostics) {
     const int errors = diagnostics.errors();
+    const auto report = [&](const Location& at, const auto& check) {
+        try {
+            check();
+        } catch (const InputError& e) {
+            const auto& found = e.diagnostics().all().front();
+            diagnostics.error(at, found.message, found.hint);
+        }
+    };
+    const auto check_use = [&](model::Assignment::Owner owner, const model::TypeUse& use) {
+        const auto* parameters = model::parameters_of(registry, owner, use.type);
+        if (!parameters) return;
+        for (const auto& s : use.settings)
+            if (const auto* p = find_by(*parameters, s.name, &Parameter::name))
+                report(s.value_at, [&] {
+                    check_parameter_file(use.type, *p,
+                                         p->is_path ? model::resolved(s.value, s.value_at) : s.value);
+                });
+    };
     for (const auto& p : system.processes) {
-        if (!p.module) continue;
-        for (const auto& setting : p.module->settings) try {
-                const auto* file = module_file(p.module->type, setting.name);
-                if (!file) continue;
-                const bool relative_to_file = file->device.empty();
-                check_module_file(
-                    p.module->type, setting.name,
-                    relative_to_file ? model::resolved(setting.value, setting.value_at) : setting.value);
-            } catch (const InputError& e) {
-                const auto& found = e.diagnostics().all().front();
-                diagnostics.error(setting.value_at, found.message, found.hint);
-            }
+        if (p.module) check_use(model::Assignment::Owner::process, *p.module);
+        for (const auto& g : p.groups) check_use(model::Assignment::Owner::group, g.neuron);
     }
+    for (const auto& c : system.connections)
+        if (c.synapse) check_use(model::Assignment::Owner::connection, *c.synapse);
+    model::each_array(system.processes, system.connections, [&](const auto& item) {
+        if (!item.file.empty())
+            report(item.file_at,
+                   [&] { check_readable(model::resolved(item.file, item.file_at), {FileKind::numbers}); });
+    });
     return diagnostics.errors() == errors;
+}
+
+void check_operation_files(const Session& session, const nlohmann::json& operations) {
+    for (const auto& o : operations) {
+        const auto name = o.find("do");
+        const auto* declared = name != o.end() && name->is_string()
+                                   ? find_by(editing::system_operations(), name->get<std::string>(),
+                                             &editing::Operation<editing::SystemEdit>::name)
+                                   : nullptr;
+        if (!declared) continue;  // it is rejected when it is carried out
+        const bool writes = contains(declared->members, "overwrite", &schema::Member::name);
+        for (const auto& m : declared->members) {
+            const auto given = o.find(m.name);
+            if (m.type.kind != schema::ValueType::Kind::path || given == o.end() || !given->is_string())
+                continue;
+            const auto path = given->get<std::string>();
+            if (writes)
+                check_writable(session, path, FileKind::process, o.value("overwrite", json()) == true);
+            else
+                check_readable(path, {FileKind::process});
+        }
+    }
 }
 
 bool may_quote(const SourceFile& file) {

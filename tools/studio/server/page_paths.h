@@ -1,13 +1,16 @@
 // Which files pages may read and write: docs/design/studio-protocol.md, "Files". Every path that a page names
-// goes through here.
+// is checked here: in commands, in operations, and in the system that runs after them.
 #pragma once
 
 #include <initializer_list>
 #include <string>
 #include <string_view>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "core/base/diagnostic.h"
 #include "core/model/system.h"
+#include "core/types/registry.h"
 
 namespace forage::studio {
 
@@ -24,6 +27,7 @@ enum class FileKind {
     layout,
     patterns,  ///< nothing but numbers
     table,     ///< of moduleReplay
+    numbers,   ///< weights and initial values
     recording,
     camera,  ///< no file has its content
     gamepad  ///< its recorded events
@@ -49,11 +53,14 @@ void check_writable(const Session& session, const std::string& path, FileKind ki
 /// The path of a system or a world that comes with Forage. Throws InputError for a name that leads elsewhere.
 std::string shipped_path(const Session& session, const std::string& name);
 
-/// Reports modules of a system that name a file or device of another kind than theirs. Returns whether there
-/// are none.
-bool check_module_files(const model::System& system, Diagnostics& diagnostics);
-/// Throws InputError when a parameter of a type of modules names such a file or device.
-void check_module_file(const std::string& type, const std::string& parameter, const std::string& path);
+/// Reports the files and devices that a system names and that a page may not name: its modules, weights and
+/// initial values have files of their kinds. Returns whether there are none.
+bool check_system_files(const model::System& system, const Registry& registry, Diagnostics& diagnostics);
+/// Throws InputError when the value of a parameter of a type names such a file or device.
+void check_parameter_file(const std::string& type, const Parameter& parameter, const std::string& path);
+/// Throws InputError for a path in operations on a system that pages may not read, or write for operations
+/// that may overwrite a file. All these files are processes.
+void check_operation_files(const Session& session, const nlohmann::json& operations);
 
 /// Whether a message about a file may name what is in it: not when the file is on the disk, and of no kind
 /// that Forage reads.

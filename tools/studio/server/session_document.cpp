@@ -57,7 +57,8 @@ std::optional<std::vector<std::string>> live_assignments(const Run& run,
 
 std::vector<Document::Problem> Session::find_problems() const {
     Diagnostics files = edited.document->reading();
-    if (!check_module_files(edited.document->system(), files)) return edited.document->located(files);
+    if (!check_system_files(edited.document->system(), live.run->registry(), files))
+        return edited.document->located(files);
     return edited.document->problems(live.run->registry(), live.run->environment());
 }
 

@@ -171,19 +171,6 @@ Equivalent script_edit(const Session& s, json operations, const json& ids) {
     return of_edit(s.edited_file(s.edited.document->path()), operations);
 }
 
-/// Throws InputError for a file of an operation that pages may not read or write.
-void check_files(const Session& s, const json& operations) {
-    for (const auto& o : operations) {
-        const auto file = o.find("file");
-        if (file == o.end() || !file->is_string()) continue;
-        const auto path = file->get<std::string>();
-        const json what = o.value("do", json());
-        if (what == "import" || what == "use_part") check_readable(path, {FileKind::process});
-        if (what == "make_part")
-            check_writable(s, path, FileKind::process, o.value("overwrite", json()) == true);
-    }
-}
-
 json list_parts(Session& s, const Request&) {
     json out = json::array();
     const auto add = [&](const std::filesystem::path& folder, bool shipped) {
@@ -277,6 +264,12 @@ json preview_connection(Session& s, const Request& r) {
     for (const char* part : connection_parts)
         if (r.has(part))
             carry_out({{"do", part}, {"id", id}, {part, r[part]}}, system, s.run().registry(), files);
+    model::System alone;
+    if (const auto* connection = find_by(system.connections, id, &model::Connection::id))
+        alone.connections.push_back(*connection);
+    Diagnostics files_of_page;
+    check_system_files(alone, s.run().registry(), files_of_page);
+    throw_errors(files_of_page);
     return describe_synapses(system, id, s.run().seed(), max_pairs);
 }
 
@@ -289,7 +282,7 @@ json edit_document(Session& s, const json& operations, std::string title, const 
         title = title_of(operations.front(), document.system());
         if (operations.size() > 1) title += fmt::format(" and {} more", operations.size() - 1);
     }
-    check_files(s, operations);
+    check_operation_files(s, operations);
     json ids = json::array();
     const std::string before = document.text();
     editing::EditFiles files(document.path());

@@ -31,7 +31,7 @@ bool acts_at_start(const model::Assignment& a) {
 void check_file(const model::System& system, const model::Assignment& a) {
     if (!a.parameter || a.parameter->kind != ParameterKind::text) return;
     if (const auto* use = model::find_use(system, a.id))
-        check_module_file(use->type, a.parameter->name, std::get<std::string>(a.value));
+        check_parameter_file(use->type, *a.parameter, std::get<std::string>(a.value));
 }
 
 json set_by_page(Session& s, const Request& r) {

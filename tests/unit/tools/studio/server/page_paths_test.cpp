@@ -12,6 +12,7 @@
 #include "core/base/text_file.h"
 #include "tests/support/catch.h"
 #include "tests/support/paths.h"
+#include "tools/api/edit/operations.h"
 #include "tools/studio/server/commands/command.h"
 #include "tools/studio/server/requests.h"
 
@@ -188,9 +189,98 @@ TEST_CASE("modules of an edited system open cameras and gamepads only") {
             CHECK(edit(device).find("' is not a file") != std::string::npos);
         for (const auto& device : {f.path("none"), f.file("empty", "")})  // which the module reports
             CHECK(edit(device).find("' is not a ") == std::string::npos);
-        CHECK_THROWS_AS(check_module_file(type, "DeviceName", secrets), InputError);
-        CHECK_NOTHROW(check_module_file(type, "DeviceName", ""));
+        const auto* module = f.session->run().registry().module(type);
+        REQUIRE(module);
+        const auto& parameter = *find_by(module->parameters, "DeviceName", &Parameter::name);
+        CHECK_THROWS_AS(check_parameter_file(type, parameter, secrets), InputError);
+        CHECK_NOTHROW(check_parameter_file(type, parameter, ""));
+        if (parameter.is_path)  // relative to the system's file
+            CHECK(edit("secrets").find(fmt::format("secrets' is not a {}", kind)) != std::string::npos);
     }
+}
+
+namespace {
+
+/// A module as a plugin may bring it.
+struct FileModule {
+    std::string file, name;
+    static void describe(ModuleSpec<FileModule>& s) {
+        s.name("moduleFile", "File");
+        s.param("file", &FileModule::file).label("File").path().doc("What it reads.");
+        s.param("name", &FileModule::name).label("Name").doc("No file.");
+    }
+    void update(ModuleFrame&) {}
+};
+
+}  // namespace
+
+TEST_CASE("a module of a plugin names files of data only") {
+    OwnFolder f;
+    Registry registry;
+    registry.add(module_type<FileModule>());
+    const auto found = [&](const char* parameter, const std::string& value) {
+        model::System system;
+        auto& module = system.processes.emplace_back().module.emplace();
+        module.type = "moduleFile";
+        module.settings.push_back({parameter, value, {}, {}});
+        Diagnostics diagnostics;
+        const bool sound = check_system_files(system, registry, diagnostics);
+        CHECK(sound != diagnostics.failed());
+        return format(diagnostics);
+    };
+    const auto secrets = f.file("secrets.csv", fmt::format("root:x:0:{}\n", secret));
+    CHECK(found("file", secrets).find("secrets.csv' is not a file of numbers") != std::string::npos);
+    CHECK(found("file", "/dev/zero").find("'/dev/zero' is not a file") != std::string::npos);
+    CHECK(found("file", f.file("data.csv", "x,y\n1,2\n")).empty());
+    CHECK(found("file", f.file("rows.txt", "1 2 3\n")).empty());
+    CHECK(found("file", "").empty());
+    CHECK(found("name", secrets).empty());
+}
+
+TEST_CASE("operations read and replace processes only, whatever member names the file") {
+    OwnFolder f;
+    const std::string content = fmt::format("root:x:0:{}\n", secret);
+    const auto file = f.file("data.iqrProcess", content);
+    const auto process = f.session->edited.document->system().processes.front().id;
+    int with_path = 0;
+    for (const auto& operation : editing::system_operations()) {
+        json o = {{"do", operation.name}, {"id", process}, {"overwrite", true}};
+        bool has_path = false;
+        for (const auto& m : operation.members) {
+            if (m.type.kind != ValueType::Kind::path) continue;
+            o[m.name] = file, has_path = true;
+        }
+        if (!has_path) continue;
+        ++with_path;
+        INFO(operation.name);
+        CHECK_THROWS_AS(check_operation_files(*f.session, json::array({o})), InputError);
+        CHECK(f.ask({{"command", "edit"}, {"operations", {o}}})["ok"] == false);
+        CHECK(read_file(file) == content);
+    }
+    CHECK(with_path >= 3);
+    CHECK(f.sent.find(secret) == std::string::npos);
+}
+
+TEST_CASE("weights and initial values of an edited system are files of numbers") {
+    OwnFolder f;
+    const auto connection = f.session->edited.document->system().connections.front().id;
+    const auto pattern = [](const std::string& file) {
+        return json{{"form", "weights"}, {"file", file}, {"list", false}, {"text", ""}};
+    };
+    const auto secrets = f.file("secrets.csv", fmt::format("{} {}\n", secret, secret));
+    const json preview =
+        f.ask({{"command", "preview"}, {"connection", connection}, {"pattern", pattern(secrets)}});
+    CHECK(preview["problems"][0]["message"] == "'" + secrets + "' is not a file of numbers");
+    f.ask({{"command", "edit"},
+           {"operations", {{{"do", "pattern"}, {"id", connection}, {"pattern", pattern(secrets)}}}}});
+    CHECK_FALSE(f.session->edited.current);
+    CHECK(f.sent.find("secrets.csv' is not a file of numbers") != std::string::npos);
+    CHECK(f.sent.find(secret) == std::string::npos);
+    for (const char* numbers :
+         {"1,2,3\n", "source,target,weight\n0,0,1\n", "a,0.5\nb,nan\n", "\x93NUMPY", ""})
+        CHECK(is_of_kind(numbers, FileKind::numbers));
+    for (const char* other : {"root:x:0:0:root:/root\n", "a,b\n", "<System/>"})
+        CHECK_FALSE(is_of_kind(other, FileKind::numbers));
 }
 
 TEST_CASE("messages about arrays of an edited system have nothing of other files") {
