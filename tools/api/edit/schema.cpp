@@ -90,8 +90,9 @@ ValueType choice(std::vector<std::string> choices) {
     out.choices = std::move(choices);
     return out;
 }
-ValueType list(ValueType element) {
+ValueType list(ValueType element, double max_elements) {
     auto out = of_kind(Kind::list);
+    out.high = max_elements;
     out.element.push_back(std::move(element));
     return out;
 }
@@ -107,6 +108,8 @@ Member optional(std::string name, ValueType type, json otherwise, std::string do
 std::optional<Mismatch> mismatch(const json& value, const ValueType& type, const std::string& where) {
     if (!fits(value, type)) return Mismatch{where, "is " + shown(value), in_words(type)};
     if (type.kind == Kind::record && !type.members.empty()) return mismatch(value, type.members, where);
+    if (type.kind == Kind::list && static_cast<double>(value.size()) > type.high)
+        return Mismatch{where, fmt::format("has {} elements", value.size()), in_words(type)};
     if (type.kind == Kind::list)
         for (std::size_t i = 0; i < value.size(); ++i)
             if (auto found = mismatch(value[i], type.element[0], fmt::format("{}[{}]", where, i)))
@@ -160,7 +163,9 @@ std::string in_words(const ValueType& type) {
                                fmt::join(type.choices.begin(), std::prev(type.choices.end()), ", "),
                                type.choices.back());
         case Kind::list:
-            return "a list, each element " + in_words(type.element[0]);
+            return fmt::format("a list{}, each element {}",
+                               std::isfinite(type.high) ? fmt::format(" of at most {}", type.high) : "",
+                               in_words(type.element[0]));
         case Kind::record:
             break;
     }

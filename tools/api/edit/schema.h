@@ -23,7 +23,7 @@ struct ValueType {
     static constexpr double infinity = std::numeric_limits<double>::infinity();
 
     Kind kind = Kind::any;
-    double low = -infinity, high = infinity;  ///< of a number
+    double low = -infinity, high = infinity;  ///< of a number; of a list, the most elements
     std::vector<std::string> choices = {};
     std::vector<ValueType> element = {};  ///< of a list: one
     std::vector<Member> members;          ///< of a record; one without members may have any
@@ -47,7 +47,7 @@ ValueType number(double low = -ValueType::infinity, double high = ValueType::inf
 ValueType text();
 ValueType path();  ///< a text without control characters, which would cut or hide a part of a name
 ValueType choice(std::vector<std::string> choices);
-ValueType list(ValueType element);
+ValueType list(ValueType element, double max_elements = ValueType::infinity);
 ValueType record(std::vector<Member> members, std::string typescript_name = {});
 Member optional(std::string name, ValueType type, json otherwise = nullptr, std::string doc = {});
 

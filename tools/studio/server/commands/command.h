@@ -23,12 +23,8 @@ class Request {
     bool has(const char* member) const { return arguments_.contains(member); }
     const json& operator[](const char* member) const { return arguments_.at(member); }
     std::string text(const char* member) const { return arguments_.at(member).get<std::string>(); }
-    /// Throws InputError for more than 10,000 texts, which would block the engine.
+    /// A list of texts; empty when it is absent.
     std::vector<std::string> texts(const char* member) const {
-        constexpr std::size_t max_texts = 10'000;
-        if (has(member) && arguments_.at(member).size() > max_texts)
-            throw InputError(std::string("there is too much in '") + member + "'",
-                             "a message holds at most 10000 of them");
         return has(member) ? arguments_.at(member).get<std::vector<std::string>>()
                            : std::vector<std::string>();
     }
@@ -57,6 +53,11 @@ struct Command {
     /// theirs when they are logged (LoggedAction).
     Equivalent (*script)(Session& session, const json& action) = nullptr;
 };
+
+/// The arguments that a command accepts: its own, and the `generation` of one that changes the run.
+std::vector<Member> arguments_of(const Command& command);
+/// A list of names or assignments; many more of them would block the engine.
+ValueType texts();
 
 /// All commands, topic by topic.
 const std::vector<Command>& commands();

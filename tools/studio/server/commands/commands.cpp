@@ -15,19 +15,16 @@ constexpr Topic topics[] = {run_commands,    looking_commands,     figure_comman
                             layout_commands, past_commands,        editing_commands,  document_commands,
                             world_commands};
 
-/// Removes the generation that a command names. Throws Conflict when it is not the present one.
-void take_generation(const Session& session, const Command& command, json& arguments) {
-    const auto seen = arguments.find("generation");
-    if (!command.changes_run || seen == arguments.end()) return;
-    if (const auto found = mismatch(*seen, whole(), "generation"))
-        throw InputError(fmt::format("command '{}': '{}' {}", command.name, found->where, found->what),
-                         found->allowed);
-    if (seen->get<std::uint64_t>() != session.generation())
-        throw Conflict("the run has changed since: another page has touched it");
-    arguments.erase(seen);
+}  // namespace
+
+std::vector<Member> arguments_of(const Command& command) {
+    auto out = command.arguments;
+    if (command.changes_run)
+        out.push_back(optional("generation", whole(), nullptr, "Another action since is a conflict."));
+    return out;
 }
 
-}  // namespace
+ValueType texts() { return list(text(), 10'000); }
 
 const std::vector<Command>& commands() {
     static const std::vector<Command> all = [] {
@@ -50,9 +47,14 @@ json execute_command(Session& session, int client, json message) {
         throw InputError("'command' is missing in the message", R"(such as {"id": 1, "command": "run"})");
     const auto& command = find_command(name->get<std::string>());
     message.erase("command"), message.erase("id");
-    take_generation(session, command, message);
-    const std::string what = fmt::format("command '{}'", command.name);
-    return command.apply(session, Request(client, checked(std::move(message), command.arguments, what)));
+    json arguments =
+        checked(std::move(message), arguments_of(command), fmt::format("command '{}'", command.name));
+    if (const auto seen = arguments.find("generation"); seen != arguments.end()) {
+        if (seen->get<std::uint64_t>() != session.generation())
+            throw Conflict("the run has changed since: another page has touched it");
+        arguments.erase(seen);
+    }
+    return command.apply(session, Request(client, std::move(arguments)));
 }
 
 }  // namespace forage::studio

@@ -359,7 +359,7 @@ std::vector<Command> editing_commands() {
          .apply = replace_text},
         {.name = "copy",
          .doc = "Returns items and the connections among their groups, for the operation `paste`.",
-         .arguments = {{"ids", list(text())},
+         .arguments = {{"ids", texts()},
                        optional("connections", boolean(), true, "false: only those that `ids` names")},
          .result = "{ text: string }",
          .apply = copy_items},

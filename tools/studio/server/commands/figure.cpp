@@ -221,7 +221,7 @@ std::vector<Command> figure_commands() {
          .doc = "Draws a figure of the run, as `forage plot` does from its results. Sources are recorded by "
                 "repeating the past. Returns the content of the file in base64, the lines of a shell that "
                 "make the same file, and why they may give another one.",
-         .arguments = {{"plots", list(text()), "as those of `forage plot`"},
+         .arguments = {{"plots", texts(), "as those of `forage plot`"},
                        optional("format", choice({"png", "svg", "pdf"}), "png"),
                        optional("layout", text(), "", "panels of several plots: `2x1`"),
                        optional("width", text(), "", "`85mm` or `600px`; by default that of the content"),

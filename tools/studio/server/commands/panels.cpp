@@ -134,8 +134,8 @@ std::vector<Command> panel_commands() {
          .apply = read_parameter_file},
         {.name = "parameters_write",
          .doc = "Writes the values of parameters.",
-         .arguments = {values, optional("rows", rows),
-                       optional("items", list(text()), nullptr, "by default all"), overwrite},
+         .arguments = {values, optional("rows", rows), optional("items", texts(), nullptr, "by default all"),
+                       overwrite},
          .result = "{ file: string; rows: number }",
          .apply = write_parameter_file},
     };

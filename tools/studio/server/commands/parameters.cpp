@@ -139,7 +139,7 @@ std::vector<Command> parameter_commands() {
          .apply = [](Session& s, const Request& r) { return describe_item_parameters(s, r.text("item")); }},
         {.name = "set",
          .doc = "Sets parameters, all of them or none.",
-         .arguments = {{"assignments", list(text()), "such as `Bug/Light.threshold=0.3`"}},
+         .arguments = {{"assignments", texts(), "such as `Bug/Light.threshold=0.3`"}},
          .result = generation,
          .changes_run = true,
          .apply = set_by_page,

@@ -82,7 +82,7 @@ std::vector<Command> past_commands() {
              "`seek`, and a second run in step with the run, which repeats what the run did or would do "
              "without further actions; then `set`. `seek` moves both; before `cycle` it ends the second run.",
          .arguments = {optional("cycle", whole(), nullptr, "by default the present one"),
-                       optional("assignments", list(text()))},
+                       optional("assignments", texts())},
          .result = cycle,
          .changes_run = true,
          .apply = begin_comparison},

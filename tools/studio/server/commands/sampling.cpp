@@ -145,7 +145,7 @@ std::vector<Command> sampling_commands() {
                 "the "
                 "same sources; `sequence` writes `NAME_001.csv`, ...",
          .arguments = {{"file", path()},
-                       {"sources", list(text())},
+                       {"sources", texts()},
                        optional("every", whole(1, 1'000'000), 1),
                        optional("cycles", whole(1, 1'000'000'000'000), nullptr,
                                 "by default until it is stopped"),

@@ -41,9 +41,7 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 // ---- the types of the page ----
 
 std::string typescript_of(const Command& c) {
-    auto arguments = c.arguments;
-    if (c.changes_run)
-        arguments.push_back(optional("generation", whole(), nullptr, "Another action since is a conflict."));
+    const auto arguments = arguments_of(c);
     return fmt::format("  /** {} */\n  {}: {{\n    arguments: {};\n    result: {};\n  }};\n", c.doc, c.name,
                        arguments.empty() ? "{}" : in_typescript(record(arguments)), c.result);
 }

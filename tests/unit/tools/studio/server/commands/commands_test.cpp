@@ -1,4 +1,6 @@
 // The arguments of commands: which are accepted, and what is said of others.
+#include <fmt/format.h>
+
 #include "tests/support/catch.h"
 #include "tests/support/paths.h"
 #include "tools/studio/server/commands/command.h"
@@ -60,7 +62,7 @@ TEST_CASE("a wrong argument is named, with its value and what is allowed") {
     CHECK(said(R"({"command": "pause", "cycles": 3})") ==
           "command 'pause': 'cycles' is not a member | it has no members");
     CHECK(said(R"({"command": "set"})") ==
-          "command 'set': 'assignments' is missing | a list, each element a text");
+          "command 'set': 'assignments' is missing | a list of at most 10000, each element a text");
     CHECK(said(R"({"command": "set", "assignments": ["a.b=1", 2]})") ==
           "command 'set': 'assignments[1]' is 2 | a text");
     CHECK(said(R"({"command": "panel_write", "file": "x", "rows": [{"item": "x"}]})") ==
@@ -69,6 +71,8 @@ TEST_CASE("a wrong argument is named, with its value and what is allowed") {
           "command 'speed': 'mode' is \"fast\" | real, times, cycles or free");
     CHECK(said(R"({"command": "set", "assignments": [], "generation": "x"})") ==
           "command 'set': 'generation' is \"x\" | a whole number of at least 0");
+    CHECK(said(R"({"command": "set", "assignments": [], "generation": null})")
+              .starts_with("there is nothing to set"));
     CHECK(said(R"({"command": "read", "source": "x", "generation": 1})") ==
           "command 'read': 'generation' is not a member | there is 'source'");
     // The checks of an ending would see another name than the system does.
@@ -82,9 +86,11 @@ TEST_CASE("a list of more than 10,000 texts is refused at once") {
     for (const auto& [command, member] : {std::pair{"set", "assignments"}, {"copy", "ids"}}) {
         json message = {{"command", command}, {member, json(std::size_t{10'001}, json("x"))}};
         CHECK(refusal(session, message) ==
-              "there is too much in '" + std::string(member) + "' | a message holds at most 10000 of them");
+              fmt::format(
+                  "command '{}': '{}' has 10001 elements | a list of at most 10000, each element a text",
+                  command, member));
         message[member].erase(0);
-        CHECK(session.execute(-1, message).dump().find("too much") == std::string::npos);
+        CHECK(session.execute(-1, message).dump().find("10001") == std::string::npos);
     }
 }
 
@@ -93,7 +99,7 @@ TEST_CASE("a null stands for an argument with a default") {
     const json reply = session.execute(-1, {{"command", "step"}, {"cycles", nullptr}});
     CHECK(reply["result"]["cycle"] == 1);
     CHECK(refusal(session, {{"command", "set"}, {"assignments", nullptr}}) ==
-          "command 'set': 'assignments' is null | a list, each element a text");
+          "command 'set': 'assignments' is null | a list of at most 10000, each element a text");
 }
 
 TEST_CASE("no command accepts an argument of another type, or one that it does not know") {
