@@ -289,11 +289,18 @@ void Session::compute(const std::function<void()>& cycles) {
 }
 
 void Session::cycle() {
-    compute([this] { live.step(); });
-    ++live.version;
-    compute_beside([](Course& course) { course.step(); });
-    if (live.pause_when && live.pause_when->condition.reached(*live.run, live.pause_when->since))
-        live.pause_when.reset(), live.pace.running = false, pages.status_due = true;
+    compute([this] {
+        live.step();
+        ++live.version;
+        compute_beside([](Course& course) { course.step(); });
+        if (live.pause_when && live.pause_when->condition.reached(*live.run, live.pause_when->since))
+            live.pause_when.reset(), live.pace.running = false, pages.status_due = true;
+        feed_streams();
+    });
+    record_cycle();
+}
+
+void Session::feed_streams() {
     const std::uint64_t done = live.run->cycle() - 1;
     if (done % timed_cycle == 0) {
         rows_time_ = 0;
@@ -303,6 +310,9 @@ void Session::cycle() {
         pages.sources.after_cycle(done, live.version);
     }
     live.pace.pages_time += rows_time_;
+}
+
+void Session::record_cycle() {
     if (!live.sampler) return;
     try {
         live.sampler->recorder->record(live.run->simulation());
@@ -310,7 +320,7 @@ void Session::cycle() {
         close_sampler(e.what());
         return;
     }
-    if (done % live.sampler->what.every == 0) ++live.sampler->rows;
+    if ((live.run->cycle() - 1) % live.sampler->what.every == 0) ++live.sampler->rows;
     if (live.sampler->left && --*live.sampler->left == 0) close_sampler();
 }
 

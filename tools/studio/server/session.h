@@ -170,6 +170,8 @@ class Session {
     void compute(const std::function<void()>& cycles);
     /// Computes cycles of the second run, if there is one. It ends when this fails, and the run continues.
     void compute_beside(const std::function<void(Course&)>& cycles);
+    void feed_streams();  ///< with the numbers of the last cycle, for streams of every cycle
+    void record_cycle();  ///< adds the last cycle to the recording, which ends when this fails
     void rewound();
     /// Adds the parameters that were set in systems beside the document.
     void set_beside_document(RunInput& input) const;
