@@ -29,7 +29,7 @@ class Watcher(threading.Thread):
         self.page, self.over = Page(studio), False
         for source in [*SOURCES, *groups]:
             self.page.do('subscribe', source=source)
-        self.page.do('subscribe', source=f'mean({groups[0]})', every=100, **{'class': 'append'})
+        self.page.do('subscribe', source=f'mean({groups[0]})', every=100, delivery='append')
 
     def run(self):
         while not self.over:

@@ -347,7 +347,7 @@ class Watching(unittest.TestCase):
         alone = share()
         for source in ('world:rays', 'world:camera', 'Bug/Place Cells'):
             self.page.do('subscribe', source=source)
-        self.page.do('subscribe', source='Bug/Place Cells', **{'class': 'append'})
+        self.page.do('subscribe', source='Bug/Place Cells', delivery='append')
         self.wait(lambda: share() > 3 * alone)
         self.assertLess(alone, share())
         self.assertLessEqual(share(), 1)
@@ -357,8 +357,8 @@ class Watching(unittest.TestCase):
         self.assertEqual(self.page.last('status')['pages_share'], 0)
 
     def test_every_cycle_is_appended(self):
-        stream = self.page.do('subscribe', source='mean(Bug/Light)', **{'class': 'append'})['stream']
-        pairs = self.page.do('subscribe', source='Bug/Light', every=10, **{'class': 'append'})['stream']
+        stream = self.page.do('subscribe', source='mean(Bug/Light)', delivery='append')['stream']
+        pairs = self.page.do('subscribe', source='Bug/Light', every=10, delivery='append')['stream']
         self.wait(lambda: self.page.frames and {stream, pairs} <= set(self.page.frames[-1].streams))
         self.page.acknowledge(self.frames(1)[-1].seq)
         self.page.do('step', cycles=95)
@@ -375,7 +375,7 @@ class Watching(unittest.TestCase):
         self.assertEqual({j[2] for j in joined}, {2})
 
     def test_a_gap_is_said(self):
-        stream = self.page.do('subscribe', source='Bug/Light', **{'class': 'append'})['stream']
+        stream = self.page.do('subscribe', source='Bug/Light', delivery='append')['stream']
         self.page.do('step', cycles=1)
         self.wait(lambda: self.page.frames)
         self.page.do('step', cycles=1)  # the credit is used up
@@ -567,7 +567,7 @@ class Watching(unittest.TestCase):
     def test_watching_changes_no_bit(self):
         for source in ('Bug/Light', 'world:poses', 'world:rays', 'world:parts', 'world:camera'):
             self.page.do('subscribe', source=source)
-        self.page.do('subscribe', source='mean(Bug/Light)', **{'class': 'append'})
+        self.page.do('subscribe', source='mean(Bug/Light)', delivery='append')
         for _ in range(5):
             self.page.do('step', cycles=100)
             for frame in self.page.frames:

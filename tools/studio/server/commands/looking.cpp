@@ -25,7 +25,7 @@ Run* reference_of(Session& s) { return s.live.reference ? s.live.reference->run.
 
 json subscribe(Session& s, const Request& r) {
     auto& page = page_of(s, r);
-    const auto delivery = r.text("class") == "append" ? Delivery::append : Delivery::latest;
+    const auto delivery = r.text("delivery") == "append" ? Delivery::append : Delivery::latest;
     const auto number = page.subscribe(
         s.pages.sources.stream(s.run(), reference_of(s), r.text("source"), delivery, r.whole("every")));
     const auto& stream = page.stream(number);
@@ -146,7 +146,7 @@ std::vector<Command> looking_commands() {
         {.name = "subscribe",
          .doc = "Begins a stream.",
          .arguments = {{"source", source, "see [streams](#streams)"},
-                       optional("class", choice({"latest", "append"}), "latest"),
+                       optional("delivery", choice({"latest", "append"}), "latest"),
                        optional("every", whole(1, 1'000'000'000), 1, "cycles that an `append` row joins")},
          .result = "{ stream: number; rows: number; columns: number; label: string; every: number }",
          .apply = subscribe},

@@ -80,7 +80,7 @@ export class Streams {
     stream.id = null;
     stream.refused = false;
     const request = ++stream.requests;
-    this.request('subscribe', { source, class: delivery, every }).then(
+    this.request('subscribe', { source, delivery, every }).then(
       (info) => {
         if (request !== stream.requests) return void this.request('unsubscribe', { stream: info.stream }).catch(() => {});
         stream.id = info.stream;

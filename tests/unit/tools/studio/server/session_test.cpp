@@ -825,7 +825,7 @@ TEST_CASE("two runs go side by side from any moment: one as it was, one with ano
     CHECK(f.session.run().cycle() == 200);
     CHECK(at(f, "reference:world:poses") == at(f, "world:poses"));
     const auto stream =
-        f.result({{"command", "subscribe"}, {"source", "reference:mean(Bug/Motor)"}, {"class", "append"}});
+        f.result({{"command", "subscribe"}, {"source", "reference:mean(Bug/Motor)"}, {"delivery", "append"}});
     CHECK(stream["rows"] == 1);
     f.result({{"command", "step"}, {"cycles", 400}});
     CHECK(at(f, "reference:world:poses") == earlier);  // with what was done at cycle 300

@@ -69,7 +69,7 @@ export interface Commands {
   };
   /** Begins a stream. */
   subscribe: {
-    arguments: { source: string; class?: 'latest' | 'append' | null; every?: number | null };
+    arguments: { source: string; delivery?: 'latest' | 'append' | null; every?: number | null };
     result: { stream: number; rows: number; columns: number; label: string; every: number };
   };
   /** Ends a stream. */
