@@ -17,8 +17,8 @@ void put(std::string& out, T value) {
 }  // namespace
 
 std::uint32_t Client::subscribe(Stream stream) {
-    if (streams_.size() >= most_streams)
-        throw InputError(fmt::format("a page has at most {} streams", most_streams), "close some plots");
+    if (streams_.size() >= max_streams)
+        throw InputError(fmt::format("a page has at most {} streams", max_streams), "close some plots");
     streams_.emplace(next_, std::move(stream));
     version_.reset();
     return next_++;

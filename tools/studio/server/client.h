@@ -15,7 +15,7 @@ namespace forage::studio {
 class Client {
   public:
     static constexpr std::uint32_t window = 2;
-    static constexpr std::size_t most_streams = 256;
+    static constexpr std::size_t max_streams = 256;
 
     /// Returns the number of the stream. Throws InputError when the page has too many.
     std::uint32_t subscribe(Stream stream);

@@ -18,7 +18,7 @@ using Layout = engine::Layout;
 /// The cells as parts of expressions, such as "(2..4,1)"; one empty part for all cells.
 std::vector<std::string> parts_of(const xml::PlotSource& source, const GroupShape& shape,
                                   Diagnostics& diagnostics) {
-    constexpr std::size_t most_parts = 16;  // parts that are no rectangle
+    constexpr std::size_t max_parts = 16;  // parts that are no rectangle
     if (source.cells.empty()) return {""};
     auto cells = source.cells;
     std::sort(cells.begin(), cells.end());
@@ -38,7 +38,7 @@ std::vector<std::string> parts_of(const xml::PlotSource& source, const GroupShap
         return from == to ? fmt::format("{}", from + 1) : fmt::format("{}..{}", from + 1, to + 1);
     };
     if (area == cells.size()) return {fmt::format("({},{})", range(left, right), range(top, bottom))};
-    if (cells.size() > most_parts) {
+    if (cells.size() > max_parts) {
         diagnostics.warning(source.at, "the cells are no rectangle: all of them are shown",
                             "name rectangles of cells, or at most 16 cells");
         return {""};

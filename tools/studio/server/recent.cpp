@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t most_recent = 20;
+constexpr std::size_t max_recent = 20;
 
 std::string list_path() { return state_home() + "/forage/recent"; }
 
@@ -32,7 +32,7 @@ std::vector<RecentFile> recent_files() {
     try {
         std::ifstream list(list_path());
         std::error_code ignored;
-        for (std::string line; out.size() < most_recent && std::getline(list, line);) {
+        for (std::string line; out.size() < max_recent && std::getline(list, line);) {
             std::istringstream in(line);
             RecentFile used;
             std::string seed;

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int most_studios = 8;  ///< of one system at a time
+constexpr int max_studios = 8;  ///< of one system at a time
 
 }  // namespace
 
@@ -56,7 +56,7 @@ RecoveryFiles::RecoveryFiles(const std::string& system) {
             hold_ = DirectoryHold(folder_);
             break;
         } catch (const std::runtime_error&) {
-            if (i == most_studios) throw;
+            if (i == max_studios) throw;
         }
     }
     remove_unfinished(folder_);

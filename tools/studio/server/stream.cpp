@@ -10,7 +10,7 @@
 namespace forage::studio {
 namespace {
 
-constexpr std::size_t most_kept = 4 << 20;  ///< bytes of rows that pages may fetch
+constexpr std::size_t max_kept = 4 << 20;  ///< bytes of rows that pages may fetch
 
 template <class T>
 std::string bytes_of(std::span<const double> numbers) {
@@ -55,7 +55,7 @@ Rows::Rows(std::shared_ptr<SharedSource> source, std::uint64_t every)
     : source_(std::move(source)),
       every_(every),
       columns_(1 + std::size_t{source_->source().rows()} * source_->source().columns() * (every > 1 ? 2 : 1)),
-      most_(std::max<std::size_t>(64, most_kept / (columns_ * sizeof(double)))) {}
+      max_rows_(std::max<std::size_t>(64, max_kept / (columns_ * sizeof(double)))) {}
 
 std::span<const double> Rows::from(std::uint64_t row) const {
     return std::span(numbers_).subspan(static_cast<std::size_t>(row - begin_) * columns_);
@@ -90,7 +90,7 @@ void Rows::drop_before(std::uint64_t row) {
 }
 
 void Rows::push(std::uint64_t cycle, std::span<const double> numbers) {
-    if (end() - begin_ >= most_) drop_before(begin_ + most_ / 2);
+    if (end() - begin_ >= max_rows_) drop_before(begin_ + max_rows_ / 2);
     numbers_.push_back(static_cast<double>(cycle));
     numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
 }

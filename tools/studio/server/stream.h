@@ -76,7 +76,7 @@ class Rows {
     std::shared_ptr<SharedSource> source_;
     std::uint64_t every_, begin_ = 0;
     std::uint64_t first_ = 0, joined_ = 0;  ///< of the row that grows
-    std::size_t columns_, most_;
+    std::size_t columns_, max_rows_;
     std::vector<double> pairs_, numbers_;
 };
 

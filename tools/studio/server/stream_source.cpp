@@ -12,8 +12,8 @@
 namespace forage::studio {
 namespace {
 
-constexpr std::size_t most_cells = 1'000'000;    ///< of a stream
-constexpr std::size_t most_append_cells = 4096;  ///< of a stream of every cycle
+constexpr std::size_t max_cells = 1'000'000;    ///< of a stream
+constexpr std::size_t max_append_cells = 4096;  ///< of a stream of every cycle
 
 class Cells final : public StreamSource {
   public:
@@ -197,9 +197,9 @@ std::unique_ptr<StreamSource> find_stream_source(Run& run, std::string_view text
     out->declare(wanted);
     run.require(wanted, fmt::format("'{}'", text));
     const std::size_t cells = static_cast<std::size_t>(out->rows()) * out->columns();
-    const std::size_t most = delivery == Delivery::append ? most_append_cells : most_cells;
-    if (cells > most)
-        throw InputError(fmt::format("'{}' has {} numbers; a stream has at most {}", text, cells, most),
+    const std::size_t max = delivery == Delivery::append ? max_append_cells : max_cells;
+    if (cells > max)
+        throw InputError(fmt::format("'{}' has {} numbers; a stream has at most {}", text, cells, max),
                          "name a part of the cells, such as (1..30,1..30), or the mean");
     return out;
 }

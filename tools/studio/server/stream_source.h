@@ -32,8 +32,9 @@ class StreamSource {
     virtual void declare(engine::Demand&) const {}
 };
 
-/// The source that a page names: an expression of sources, or "world:poses", "world:rays:ROBOT",
-/// "world:camera:ROBOT", "world:trail:ROBOT". Throws InputError.
+/// The source that a page names: an expression of sources, "sampled(CONNECTION)" or
+/// "sampled(CONNECTION:STATE)" for the synapses of a connection as a picture, or "world:poses",
+/// "world:rays:ROBOT", "world:parts:ROBOT", "world:camera:ROBOT", "world:trail:ROBOT". Throws InputError.
 std::unique_ptr<StreamSource> find_stream_source(Run& run, std::string_view text, Delivery delivery);
 
 }  // namespace forage::studio
