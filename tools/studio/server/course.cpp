@@ -39,7 +39,7 @@ Course Course::past(std::uint64_t cycle) {
     return out;
 }
 
-void Course::take_run(Course&& built) { run = std::move(built.run), touches = built.touches; }
+void Course::take_run(Course&& built) { run = std::move(built.run), manipulations = built.manipulations; }
 
 std::optional<Course> build_run(const Sources& sources, const RunInput& input, std::uint64_t seed,
                                 Diagnostics& diagnostics) {
@@ -52,7 +52,7 @@ std::optional<Course> build_run(const Sources& sources, const RunInput& input, s
                          {.seed = seed}, diagnostics);
     if (!run) return std::nullopt;
     Course out;
-    out.touches = &run->add(std::make_unique<Touches>());
+    out.manipulations = &run->add(std::make_unique<PageManipulations>());
     if (!run->start(diagnostics)) return std::nullopt;
     out.run = std::make_unique<Run>(std::move(*run));
     return out;

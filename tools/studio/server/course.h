@@ -13,7 +13,7 @@
 #include "core/run/run_spec.h"
 #include "tools/api/open/sources.h"
 #include "tools/studio/server/history.h"
-#include "tools/studio/server/touches.h"
+#include "tools/studio/server/page_manipulations.h"
 
 namespace forage::studio {
 
@@ -27,7 +27,7 @@ using Changes = std::map<std::string, Change>;  ///< by the name of the paramete
 /// A run, the manipulations in it, its past, and the parameters that were set.
 struct Course {
     std::unique_ptr<Run> run;
-    Touches* touches = nullptr;
+    PageManipulations* manipulations = nullptr;
     History history;
     Changes changed;
 

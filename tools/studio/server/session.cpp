@@ -86,7 +86,7 @@ void Session::open(RunInput input) {
 }
 
 void Session::reset() {
-    const auto touched = live.touches->groups();
+    const auto touched = live.manipulations->groups();
     RunInput input = edited.input;
     if (input.text.empty()) input.text = live.begun.text;  // its file may have changed outside
     set_beside_document(input);
@@ -94,7 +94,7 @@ void Session::reset() {
     const std::uint64_t seed = input.seed;
     open(std::move(input));
     edited.input = as_opened, edited.input.seed = seed;
-    for (const auto& [group, manipulation] : touched) live.touches->put(manipulation.settings());
+    for (const auto& [group, manipulation] : touched) live.manipulations->put(manipulation.settings());
     live.history.begin(*live.run);
 }
 
@@ -179,7 +179,7 @@ json Session::trials_status() const {
 
 json Session::status() const {
     json manipulations = json::array(), sampler = nullptr;
-    for (const auto& [group, m] : live.touches->groups())
+    for (const auto& [group, m] : live.manipulations->groups())
         manipulations.push_back(live.run->layout().groups[static_cast<std::size_t>(group)].path);
     if (live.sampler) sampler = {{"file", live.sampler->what.file}, {"rows", live.sampler->rows}};
     const double rate = live.pace.running ? live.pace.measured_rate() : 0;

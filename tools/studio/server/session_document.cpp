@@ -308,7 +308,7 @@ bool Session::rebuild(bool continues) {
     Run& run = *built->run;
     close_sampler();
     end_reference();
-    for (const auto& [number, manipulation] : live.touches->groups()) {
+    for (const auto& [number, manipulation] : live.manipulations->groups()) {
         auto settings = manipulation.settings();
         const auto& id = live.run->layout().groups[static_cast<std::size_t>(number)].id;
         const auto& groups = run.layout().groups;
@@ -318,7 +318,7 @@ bool Session::rebuild(bool continues) {
         });
         if (it == groups.end()) continue;
         settings.group = static_cast<int>(it - groups.begin());
-        built->touches->put(std::move(settings));
+        built->manipulations->put(std::move(settings));
     }
     const bool restarted = run.cycle() != live.run->cycle();
     run.title = live.run->title;

@@ -176,7 +176,8 @@ std::string difference_of(const Session& s, const FigureNeeds& needs) {
         out += fmt::format("The system was edited at cycle {}; these lines begin with it at cycle 0. ",
                            history.first());
     const auto now = s.live.run->cycle();
-    if (!s.live.touches->groups().empty() || std::ranges::any_of(history.actions(), [&](const auto& action) {
+    if (!s.live.manipulations->groups().empty() ||
+        std::ranges::any_of(history.actions(), [&](const auto& action) {
             return action.cycle < now && !sets_parameters(action);
         }))
         out += "Add the options of the Log: the run was changed while it lasted.";

@@ -72,7 +72,7 @@ Manipulation::Settings settings_in(const Run& run, const json& action) {
 /// The action that makes the manipulation of a group what it is now.
 json present_action(Session& s, const json& action) {
     const int group = find_group(s.run(), action.at("group").get<std::string>());
-    const auto& found = s.live.touches->groups();
+    const auto& found = s.live.manipulations->groups();
     const auto it = found.find(group);
     if (it == found.end()) return {{"command", "revoke"}, {"group", group_at(s.run(), group).path}};
     const auto& m = it->second.settings();
@@ -110,7 +110,7 @@ Equivalent script_manipulate(Session& s, const json& action) {
 json revoke_manipulation(Session& s, const Request& r) {
     const int group = find_group(s.run(), r.text("group"));
     const auto& path = group_at(s.run(), group).path;
-    if (!s.live.touches->groups().contains(group))
+    if (!s.live.manipulations->groups().contains(group))
         throw InputError(fmt::format("'{}' is not manipulated", path));
     return take_step(s, {{"command", "revoke"}, {"group", path}}, {.title = "revoke " + path, .item = path});
 }
@@ -127,7 +127,7 @@ Equivalent script_revoke(Session& s, const json& action) {
 
 json list_manipulations(Session& s, const Request&) {
     json out = json::array();
-    for (const auto& [group, m] : s.live.touches->groups()) {
+    for (const auto& [group, m] : s.live.manipulations->groups()) {
         out.push_back(present_action(s, {{"group", group_at(s.run(), group).path}}));
         out.back().erase("command");
     }
@@ -221,7 +221,7 @@ std::vector<Command> intervening_commands() {
          .result = generation,
          .changes_run = true,
          .apply = manipulate_group,
-         .repeat = [](Course& c, const json& action) { c.touches->put(settings_in(*c.run, action)); },
+         .repeat = [](Course& c, const json& action) { c.manipulations->put(settings_in(*c.run, action)); },
          .inverse = present_action,
          .script = script_manipulate},
         {.name = "revoke",
@@ -232,7 +232,7 @@ std::vector<Command> intervening_commands() {
          .apply = revoke_manipulation,
          .repeat =
              [](Course& c, const json& action) {
-                 c.touches->remove(find_group(*c.run, action.at("group").get<std::string>()));
+                 c.manipulations->remove(find_group(*c.run, action.at("group").get<std::string>()));
              },
          .inverse = present_action,
          .script = script_revoke},

@@ -30,7 +30,7 @@ json start_run(Session& s, const Request&) {
     s.live.pace.running = s.pages.status_due = true, s.live.pause_when.reset();
     s.live.pace.start();
     std::set<int> touched;
-    for (const auto& [group, manipulation] : s.live.touches->groups()) touched.insert(group);
+    for (const auto& [group, manipulation] : s.live.manipulations->groups()) touched.insert(group);
     json undriven = json::array(), robots = json::array();
     const auto& layout = s.run().layout();
     for (const auto& [group, text] : undriven_inputs(s.run().system(), layout, touched))

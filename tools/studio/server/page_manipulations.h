@@ -8,9 +8,9 @@
 
 namespace forage::studio {
 
-/// An observer that applies them, and that calls back after each cycle. Manipulations come and go while the
-/// run lasts, so a checkpoint holds their settings, too.
-class Touches final : public Observer {
+/// Applies the manipulations of pages to groups, at most one to each. They begin and end during the run, so a
+/// checkpoint also holds their settings.
+class PageManipulations final : public Observer {
   public:
     using Settings = observe::Manipulation::Settings;
 
