@@ -1,5 +1,6 @@
 #include "tools/api/describe/describe_json.h"
 
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -266,6 +267,15 @@ json describe_world(const bug::World& world) {
                                  })},
             {"bounds", std::move(bounds)},
             {"trials", world.has_trials(0)}};
+}
+
+json describe_trial(const Trial& trial, double seconds_per_cycle) {
+    json out = {{"number", trial.number},
+                {"seconds", static_cast<double>(trial.cycles) * seconds_per_cycle},
+                {"reached_target", trial.reached_target},
+                {"smallest_distance", nullptr}};
+    if (std::isfinite(trial.smallest_distance)) out["smallest_distance"] = trial.smallest_distance;
+    return out;
 }
 
 json describe_parameters(Run& run, std::string_view item) {

@@ -21,6 +21,8 @@ nlohmann::json describe_system(const Run& run);
 nlohmann::json describe_system(const model::System& system, const Registry& registry, const Run* run);
 /// The robots, objects and fixed solids of a world, with the part of the floor that a map shows.
 nlohmann::json describe_world(const bug::World& world);
+/// A trial: its number, what it took, and how near the robot came to the target; null before it was measured.
+nlohmann::json describe_trial(const Trial& trial, double seconds_per_cycle);
 /// The parameters of a group, process or connection, by path, name or id, with their present values, ranges
 /// and meanings. Throws InputError.
 nlohmann::json describe_parameters(Run& run, std::string_view item);

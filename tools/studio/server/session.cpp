@@ -27,7 +27,8 @@
 namespace forage::studio {
 namespace {
 
-/// One cycle of so many is timed, as the clock takes time, too; rows begin and end at even ones.
+/// Every 61st cycle is timed, because reading the clock takes time. The number is a prime, so timed cycles
+/// fall on all positions of a row that joins cycles.
 constexpr std::uint64_t timed_cycle = 61;
 constexpr double slice = 0.004;             ///< seconds of cycles between two looks for commands
 constexpr double look_interval = 1;         ///< s between two looks at the document's file
@@ -163,14 +164,7 @@ json Session::trials_status() const {
     if (!live.run->has_trials()) return nullptr;
     const auto& world = *live.run->environment();
     const auto& finished = world.trials(0);
-    const auto trial = [&](const Trial& t) {
-        json out = {{"number", t.number},
-                    {"seconds", static_cast<double>(t.cycles) * live.run->seconds_per_cycle()},
-                    {"reached_target", t.reached_target},
-                    {"smallest_distance", nullptr}};
-        if (std::isfinite(t.smallest_distance)) out["smallest_distance"] = t.smallest_distance;
-        return out;
-    };
+    const auto trial = [&](const Trial& t) { return describe_trial(t, live.run->seconds_per_cycle()); };
     return {{"finished", finished.size()},
             {"reached", hits().among(0, finished.size())},
             {"current", trial(world.current_trial(0))},

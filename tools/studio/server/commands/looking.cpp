@@ -1,11 +1,11 @@
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <forage/system.h>
 
 #include "bug_interface/simulation/world.h"
 #include "core/model/lookup.h"
+#include "tools/api/describe/describe_json.h"
 #include "tools/api/open/moves.h"
 #include "tools/studio/server/commands/shared.h"
 
@@ -88,15 +88,9 @@ json list_trials(Session& s, const Request& r) {
     const auto end = r.has("count") ? std::min(all.size(), begin + r.whole("count")) : all.size();
     for (std::size_t i = begin; i < end; ++i) {
         const Trial& t = all[i];
-        json row = {{"number", t.number},
-                    {"seconds", static_cast<double>(t.cycles) * s.run().seconds_per_cycle()},
-                    {"first_cycle", t.first_cycle},
-                    {"cycles", t.cycles},
-                    {"reached_target", t.reached_target},
-                    {"start", {t.start.x, t.start.y, t.start.yaw}},
-                    {"end", {t.end.x, t.end.y, t.end.yaw}},
-                    {"smallest_distance", nullptr}};
-        if (std::isfinite(t.smallest_distance)) row["smallest_distance"] = t.smallest_distance;
+        json row = describe_trial(t, s.run().seconds_per_cycle());
+        row["first_cycle"] = t.first_cycle, row["cycles"] = t.cycles;
+        row["start"] = {t.start.x, t.start.y, t.start.yaw}, row["end"] = {t.end.x, t.end.y, t.end.yaw};
         out.push_back(std::move(row));
     }
     return {{"trials", std::move(out)}};
