@@ -12,7 +12,7 @@ namespace forage::engine {
 namespace {
 
 /// Outputs of modules with more cells are not compared with what they were: only whether they are written.
-constexpr Index most_compared_cells = 1024;
+constexpr Index max_compared_cells = 1024;
 
 /// The parameters that `object` holds. They may have changed since the start.
 void keep(Archive& archive, const std::vector<Parameter>& parameters, void* object) {
@@ -153,7 +153,7 @@ State::State(const Plan& plan, const Options& options)
         for (std::size_t port = 0; port < about.output_groups.size(); ++port) {
             const Index n = cells(about.output_groups[port]);
             m.out.emplace_back(at(plan.modules[i].outputs[port]), n);
-            m.last.emplace_back(Eigen::ArrayXd::Zero(n <= most_compared_cells ? n : 0));
+            m.last.emplace_back(Eigen::ArrayXd::Zero(n <= max_compared_cells ? n : 0));
         }
         for (auto* flags : {&m.written, &m.changed, &m.ever_written}) flags->resize(m.out.size());
     }

@@ -24,11 +24,11 @@ class Budget {
         total_ += bytes;
         if (bytes > largest_) largest_ = bytes, at_ = at, what_ = std::move(what);
     }
-    bool exceeded() const { return total_ > most_bytes; }
+    bool exceeded() const { return total_ > max_bytes; }
     void report(Diagnostics& diagnostics) const {
         diagnostics.error(at_,
                           fmt::format("the system needs {:.4g} GB of memory, the most is {:.4g} GB",
-                                      total_ / 1e9, most_bytes / 1e9),
+                                      total_ / 1e9, max_bytes / 1e9),
                           largest());
     }
     void report_exhausted(Diagnostics& diagnostics) const {

@@ -10,7 +10,7 @@
 namespace forage::engine {
 
 /// The most bytes that the numbers of a system may take: 16 GiB. Lists of synapses come on top.
-inline constexpr double most_bytes = 16.0 * (1 << 30);
+inline constexpr double max_bytes = 16.0 * (1 << 30);
 
 struct Compiled {
     std::shared_ptr<const Plan> plan;
@@ -18,7 +18,7 @@ struct Compiled {
 };
 
 /// Compiles a system for a demand; `layout` is that of the system. The result is empty when `diagnostics` got
-/// an error, for example because the system needs more than `most_bytes` or more memory than there is.
+/// an error, for example because the system needs more than `max_bytes` or more memory than there is.
 Compiled compile(const model::System& system, std::shared_ptr<const Layout> layout, const Demand& demand,
                  const Options& options, Diagnostics& diagnostics);
 
