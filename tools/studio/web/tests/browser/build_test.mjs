@@ -307,7 +307,7 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await inspector.getByText(/^Read by Gazebo Bug as Motor\. The most active cell/).waitFor();
   await page.keyboard.press('Control+z');
   await connect('Target sensor');
-  await inspector.getByText("leads to 'Target sensor', to which the module of process 'Bug' writes: its cells get the sum of both").waitFor();
+  await inspector.getByText("leads to 'Bug/Target sensor', to which the module of process 'Bug' writes: its cells get the sum of both").waitFor();
   await page.keyboard.press('Control+z');
 
   for (const [width, height] of [[1024, 700], [700, 600]]) {
