@@ -21,7 +21,7 @@ void Session::run_beside(Reference reference, std::uint64_t cycle) {
     reference.replay(cycle);
     end_reference();
     live.reference = std::move(reference);
-    pages.status_due = true;
+    ++live.version, pages.status_due = true;  // it is kept, too
 }
 
 void Session::compute_beside(const std::function<void(Course&)>& cycles) {
@@ -38,7 +38,7 @@ void Session::end_reference() {
     if (!live.reference) return;
     for (auto& [id, client] : pages.clients) client.end_reference();
     live.reference.reset();
-    pages.status_due = true;
+    ++live.version, pages.status_due = true;
 }
 
 }  // namespace forage::studio

@@ -805,6 +805,34 @@ TEST_CASE("a comparison continues after a crash, bit by bit") {
     std::filesystem::remove_all(folder);
 }
 
+TEST_CASE("a comparison that begins or ends while the run rests is kept") {
+    const auto folder = test::temporary_path("forage-studio-rests");
+    std::filesystem::remove_all(folder);
+    setenv("XDG_STATE_HOME", folder.c_str(), 1);
+    {
+        Fixture f;
+        f.session.keep();
+        f.result({{"command", "step"}, {"cycles", 7}});
+        f.session.work(1000);
+        f.result({{"command", "compare"}});
+        f.session.work(2000);
+    }  // without end()
+    {
+        Fixture f;
+        f.session.keep(), f.session.recover();
+        CHECK(f.session.status()["compare"]["from"] == 7);
+        f.session.work(1000);
+        f.result({{"command", "compare_end"}});
+        f.session.work(2000);
+    }
+    Fixture f;
+    f.session.keep(), f.session.recover();
+    CHECK(f.session.run().cycle() == 7);
+    CHECK(f.session.status()["compare"].is_null());
+    f.session.end();
+    std::filesystem::remove_all(folder);
+}
+
 TEST_CASE("two runs go side by side from any moment: one as it was, one with another parameter") {
     Fixture f, before;
     const auto both = [](Fixture& x) {
