@@ -288,9 +288,6 @@ json describe_parameters(Run& run, std::string_view item) {
     const auto type = use ? use->type : std::string();
     const auto* parameters = model::parameters_of(run.registry(), found->owner, type);
     constexpr const char* owners[] = {"group", "process", "connection"};
-    Diagnostics ignored;
-    const bool unique = model::find_item(system, path, "", ignored).has_value();
-    const auto& name = unique ? path : found->id;  // the id of a connection whose name is not unique
     json list = json::array();
     const auto name = model::assignment_name(system, found->owner, found->id);
     if (parameters)

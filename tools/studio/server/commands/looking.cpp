@@ -84,9 +84,10 @@ std::size_t first_since(const std::vector<Trial>& trials, std::uint64_t cycle) {
 json list_trials(Session& s, const Request& r) {
     json out = json::array();
     const auto& all = world_of(s.run()).trials(find_robot(s, r));
-    const auto begin = std::max<std::size_t>(r.whole("from"), first_since(all, r.whole("since")));
-    const auto end = r.has("count") ? std::min(all.size(), begin + r.whole("count")) : all.size();
-    for (std::size_t i = begin; i < end; ++i) {
+    const auto begin = std::max<std::uint64_t>(r.whole("from"), first_since(all, r.whole("since")));
+    const auto end =
+        std::min<std::uint64_t>(all.size(), r.has("count") ? begin + r.whole("count") : all.size());
+    for (auto i = static_cast<std::size_t>(begin); i < end; ++i) {
         const Trial& t = all[i];
         json row = describe_trial(t, s.run().seconds_per_cycle());
         row["first_cycle"] = t.first_cycle, row["cycles"] = t.cycles;
