@@ -57,7 +57,7 @@ void AdaptiveLayerModule::describe(ModuleSpec<AdaptiveLayerModule>& s) {
         .same_size_as("input")
         .doc("The estimate of the stimuli that is computed from the conditioned response.");
     s.output("output", "Output").same_size_as("condition").doc("The conditioned response (CR).");
-    s.output("descripancy", "Descripancy")
+    s.output("descripancy", "Discrepancy")
         .cells(1)
         .tolerate([](PortSizes&, const GroupShape&) { return true; })
         .doc("The running average of the difference between stimuli and prototype; other cells stay 0.");
