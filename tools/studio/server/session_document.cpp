@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/sequence.h"
 #include "core/model/build.h"
 #include "core/model/changes.h"
 #include "core/model/expression.h"
