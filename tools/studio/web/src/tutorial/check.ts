@@ -43,10 +43,27 @@ async function find(check: Check, before: Finding | undefined, field: HTMLElemen
   return asked && 'count' in asked ? findCount({ ...check, asked }, answer!.number, reached) : findHits(check, reached, change !== undefined);
 }
 
-/** Shows the findings below the button, and returns them. `before` are those of the last time. */
-export async function showFindings(button: HTMLElement, checks: Check[], before: Finding[]): Promise<Finding[]> {
+/** What an exercise that is set up waits to see. */
+export function awaited(checks: Check[]): Finding[] {
+  const found: Finding[] = [];
+  checks.forEach((check, i) => check.seen && (found[i] = findSeen(check, false)));
+  return found;
+}
+
+/** Adds what is seen now to the findings, while it lasts: a movement is over before one asks. Returns `before` when there is nothing new. */
+export async function findSights(checks: Check[], before: Finding[]): Promise<Finding[]> {
+  const found = [...before];
+  for (const [i, check] of checks.entries()) {
+    if (!check.seen || before[i]?.right || !(await areInForce(check.given)) || !(await holds(check.seen.condition))) continue;
+    found[i] = { ...findSeen(check, true), looked: true };
+  }
+  return found.some((f, i) => f !== before[i]) ? found : before;
+}
+
+/** What is found of an exercise, with the questions below `setup`. `before` are the findings of the last time. */
+export async function findAll(setup: HTMLElement, checks: Check[], before: Finding[]): Promise<Finding[]> {
   // Questions come first.
-  const fields = button.closest('.setup')!.querySelectorAll<HTMLElement>('.ask');
+  const fields = setup.querySelectorAll<HTMLElement>('.ask');
   const found: Finding[] = [];
   // Choices come last: they are predictions, which all else confirms.
   const choice = (check: Check) => Number(check.asked !== undefined && 'choice' in check.asked);
@@ -59,14 +76,11 @@ export async function showFindings(button: HTMLElement, checks: Check[], before:
   const asks = (check: Check) => check.asked !== undefined && 'count' in check.asked;
   for (const [i, check] of checks.entries())
     if (check.hits && checks.some((c, j) => asks(c) && !found[j]!.right && String(c.given) === String(check.given))) found[i] = { ...found[i]!, right: null, text: 'Count first: the question above asks how many.' };
-  const list = button.parentElement!.querySelector('ul')!;
-  listFindings(list, found);
-  list.scrollIntoView({ block: 'nearest' });
   return found;
 }
 
 export function listFindings(list: Element, found: Finding[]): void {
-  list.replaceChildren(...found.map(({ right, text }) => {
+  list.replaceChildren(...found.filter(Boolean).map(({ right, text }) => {
     const line = document.createElement('li');
     line.className = right === null ? 'open' : right ? 'right' : 'wrong';
     line.textContent = text;

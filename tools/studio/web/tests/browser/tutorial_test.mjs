@@ -210,13 +210,20 @@ export default async function({ site, folder, start, open, faults, step }) {
     await drive.getByRole('button', { name: 'Send again' }).click();
     await page.getByRole('button', { name: 'Step one cycle' }).click();
     await page.getByRole('button', { name: 'Step one cycle' }).click();
-    await hand.getByRole('button', { name: 'Check what I have seen' }).click();
     await hand.getByText(found).waitFor();
   };
+  await hand.getByText('Not yet that it drives backwards.').waitFor();
   await driven(['Home'], 'Right, the robot turns to its left.');
   await driven(['End'], 'Right, it drives backwards.');
+  await hand.getByRole('button', { name: 'Check what I have seen' }).click();
   await hand.getByText('You said “It turns to the right on the spot”. It is judged after the other lines of this list.').waitFor();
   await driven(['End', ...Array(4).fill('ArrowUp')], 'Right, cell (9, 5) drives it.');
+  // What was seen is over when it is asked.
+  await drive.getByRole('button', { name: 'Clear' }).click();
+  await drive.getByRole('button', { name: 'Send again' }).click();
+  for (let i = 0; i < 2; i++) await page.getByRole('button', { name: 'Step one cycle' }).click();
+  await hand.getByRole('button', { name: 'Check what I have seen' }).click();
+  await hand.getByText('You said “It turns to the right on the spot”: right.').waitFor();
   assert.deepEqual(await hand.getByRole('listitem').evaluateAll((all) => all.map((l) => l.className)), Array(4).fill('right'));
 
   step('a choice of the tutorial is a parameter of the run that need not be saved; changes of the user are not dropped without asking');
