@@ -69,7 +69,16 @@ const tasks: Record<FileAction, (process: string) => FileTask> = {
       },
     };
   },
-  new: () => ({ title: 'New system', verb: 'Create', files: /\.world$/, name: newName, act: () => request('new', { name: fileDialog.name.trim(), world: fileDialog.world.trim(), from: fileDialog.template }) }),
+  new: () => ({
+    title: 'New system',
+    verb: 'Create',
+    files: /\.world$/,
+    name: newName,
+    act: async () => {
+      await request('new', { name: fileDialog.name.trim(), world: fileDialog.world.trim(), from: fileDialog.template });
+      await request('speed', { mode: 'real' }); // not that of what was open before
+    },
+  }),
   world: () => ({
     title: 'Another world',
     verb: 'Open',

@@ -44,13 +44,17 @@ export default async function({ forage, folder, start, open, faults, step }) {
     await heading(path);
   };
 
-  step('a new system');
+  step('a new system shows its diagram beside the arena, in real time, whatever was open before');
+  await page.getByRole('button', { name: 'Max', exact: true }).click();
+  await find(page, 'layout: overview');
   await page.getByRole('button', { name: /Reactive foraging/ }).first().click();
   await page.getByRole('menuitem', { name: 'New' }).click();
   await page.getByRole('dialog', { name: 'New system' }).getByLabel('Name').fill('Mine');
   await page.keyboard.press('Enter');
   await page.getByText('The system is empty').waitFor();
   await page.getByRole('group', { name: 'Arena' }).waitFor(); // beside the diagram
+  assert.deepEqual(await page.locator('.dv-tab').allTextContents().then((all) => all.map((t) => t.trim()).sort()), ['Arena', 'Diagram']);
+  await page.getByRole('button', { name: '1×', exact: true, pressed: true }).waitFor();
   await page.getByRole('button', { name: 'Arrange, view, save' }).click(); // one menu, as there is less room
   await page.getByRole('menuitem', { name: 'Lay out the page' }).waitFor();
   await page.keyboard.press('Escape');
