@@ -262,6 +262,13 @@ export default async function({ site, start, open, faults, step }) {
   const tutorial = other.getByRole('button', { name: 'Tutorial', exact: true });
   await tutorial.click();
   const text = other.getByRole('group', { name: 'Tutorial', exact: true }).locator('.text');
+  const wide = () => text.evaluate((e) => e.clientWidth), unmoved = await wide();
+  for (const drawn of [true, false]) {
+    await other.getByRole('button', { name: 'Show or hide the inspector' }).click();
+    await other.getByRole('region', { name: 'Inspector' }).waitFor({ state: drawn ? 'visible' : 'hidden' });
+    await eventually('panels as wide as their room', () => other.evaluate(() => document.querySelector('.dock > *').clientWidth === document.querySelector('.dock').clientWidth));
+    assert.equal(await wide(), unmoved, 'the text keeps its width');
+  }
   const read = () => text.evaluate((e) => [...e.children].findIndex((c) => c.getBoundingClientRect().bottom > e.getBoundingClientRect().top));
   const scrolled = () => eventually('paragraph 15', async () => (await read()) === 15);
   await text.evaluate((e) => e.children[15].scrollIntoView());
