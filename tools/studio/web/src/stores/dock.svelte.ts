@@ -1,6 +1,7 @@
 // The panels in the middle. Dockview arranges them; this store opens, focuses and keeps them.
-import type { DockviewApi, DockviewGroupPanel, SerializedDockview } from 'dockview-core';
+import type { DockviewApi, DockviewGroupPanel, IDockviewPanel, SerializedDockview } from 'dockview-core';
 import { isPlot, kinds, type PanelState } from '../panels/registry';
+import { actions } from './actions.svelte';
 import { followed, type NameChanges } from './follow';
 import { frame, type Room } from './frame.svelte';
 
@@ -137,6 +138,18 @@ class Dock {
     for (const p of [...api.panels]) if (!keys.has(Dock.key(p.params as PanelState))) api.removePanel(p);
     for (const panel of open) if (!this.find(panel)) this.plot(panel);
     if (active) this.find(active)?.api.setActive();
+  }
+
+  /** Says that the arena or the diagram is closed, which no plot leads to, with the way back to its place. Called before it is closed. */
+  sayClosed(p: IDockviewPanel): void {
+    const panel = p.params as PanelState, layout = this.api!.toJSON();
+    if (!['arena', 'diagram'].includes(panel.kind)) return;
+    const back = () => {
+      this.open(panel);
+      this.spread(layout);
+      this.find(panel)?.api.setActive();
+    };
+    actions.notify('info', `The ${panel.kind} is closed.`, { cause: 'closed', action: { label: 'Undo', act: back } });
   }
 
   private find(panel: PanelState) {

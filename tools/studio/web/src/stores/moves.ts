@@ -126,6 +126,7 @@ export function resize(p: IDockviewPanel, wider: number, taller: number): void {
 
 export function close(p: IDockviewPanel): void {
   const group = p.group;
+  dock.sayClosed(p);
   p.api.close();
   done(group.activePanel ?? dock.api!.activePanel);
 }
