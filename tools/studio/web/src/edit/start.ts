@@ -20,7 +20,7 @@ export function reportStart({ undriven, undriven_robots: [robot] }: Started): vo
   const problem = editing.problems.find((p) => p.severity !== 'warning'), off = model.processes.find((p) => p.module && !p.enabled);
   if (editing.message?.running_is_current === false && problem) {
     const fix = fixesOf(problem)[0] ?? { label: 'Show the problems', act: () => dock.plot({ kind: 'problems' }) };
-    say(`This runs the last valid version of the system: ${formProblem(problem).message}.`, fix.label, fix.act);
+    say(`The system has a mistake, so its last version without one runs: ${formProblem(problem).message}.`, fix.label, fix.act);
   } else if (robot && off) say(sentence(robot.text), `Enable the module of ${off.name}…`, () => properties(off.id, 'enabled'));
   else if (robot) say(sentence(robot.text), `Add the robot ${robot.robot}`, () => addRobot(robot.robot));
   else if (undriven[0]) say(sentence(undriven[0].text), 'Connect a group to it', () => (tools.dialog = { source: null, target: undriven[0]!.group, kind: 'excitatory' }));

@@ -354,7 +354,7 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await box(exact('Motor')).press('Delete');
   await page.getByRole('button', { name: '1 problem' }).click();
   await page.getByRole('group', { name: 'Problems' }).getByRole('button', { name: 'Create group 9 × 9' }).waitFor();
-  await begun('This runs the last valid version of the system: Motor of the module of Bug has no group.', 'Create group 9 × 9');
+  await begun('The system has a mistake, so its last version without one runs: Motor of the module of Bug has no group.', 'Create group 9 × 9');
   await problems.waitFor({ state: 'detached' });
   assert.deepEqual(faults, []);
 }

@@ -250,7 +250,7 @@ export default async function({ folder, context, start, open, faults, step }) {
   const left = () => page.evaluate(() => document.querySelector('button.run').getBoundingClientRect().left);
   const runAt = await left();
   await port.selectOption('');
-  await page.getByRole('button', { name: 'running the last valid version' }).click();
+  await page.getByRole('button', { name: 'earlier version runs' }).click();
   assert.equal(await left(), runAt, 'Run stays where it is');
   await find(page, 'Adaptive/UR');
   await page.getByRole('group', { name: 'Problems' }).getByRole('button', { name: `${label} of the module of Bug has no group` }).click();
@@ -258,7 +258,7 @@ export default async function({ folder, context, start, open, faults, step }) {
   await page.keyboard.press('Escape');
   await canvas.focus();
   await page.keyboard.press('Control+z');
-  await page.getByRole('button', { name: 'running the last valid version' }).waitFor({ state: 'detached' });
+  await page.getByRole('button', { name: 'earlier version runs' }).waitFor({ state: 'detached' });
 
   step('Ctrl+K has the actions of the menus; a backup is written beside the file');
   await find(page, 'Save a backup');

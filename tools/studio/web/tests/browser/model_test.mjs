@@ -148,7 +148,7 @@ export default async function({ folder, start, open, faults, step }) {
   const wrong = equations.getByRole('button', { name: /'w'/ });
   await wrong.waitFor();
   await picture(page, 'mistake');
-  await page.getByRole('button', { name: 'running the last valid version' }).click();
+  await page.getByRole('button', { name: 'earlier version runs' }).click();
   await page.getByRole('group', { name: 'Problems' }).getByRole('button', { name: /'w'/ }).click({ delay: 50 });
   const there = () => until(page, 'the editor moves there', () => getSelection().anchorNode?.parentElement?.closest('.cm-line')?.textContent.includes('rate * w'));
   await there();

@@ -125,7 +125,7 @@ export default async function({ folder, context, start, open, faults, step }) {
   const before = await line();
   await page.keyboard.insertText('<Nonsense/>'); // at once, so that it is checked once
   await panel.locator('.cm-lintRange-error').filter({ hasText: '<Nonsense' }).waitFor();
-  await status.getByText(/1 mistake: the last valid version runs/).waitFor();
+  await status.getByText(/1 mistake: the last version without mistakes runs/).waitFor();
   await page.keyboard.press('Control+Home');
   await page.keyboard.press('F8');
   await page.locator('.cm-tooltip-lint').getByText(/Nonsense/).waitFor();
