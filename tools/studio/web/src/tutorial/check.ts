@@ -80,10 +80,12 @@ export async function findAll(setup: HTMLElement, checks: Check[], before: Findi
 }
 
 export function listFindings(list: Element, found: Finding[]): void {
-  list.replaceChildren(...found.filter(Boolean).map(({ right, text }) => {
-    const line = document.createElement('li');
-    line.className = right === null ? 'open' : right ? 'right' : 'wrong';
-    line.textContent = text;
-    return line;
-  }));
+  list.replaceChildren(
+    ...found.filter(Boolean).map(({ right, text }) => {
+      const line = document.createElement('li');
+      line.className = right === null ? 'open' : right ? 'right' : 'wrong';
+      line.textContent = text;
+      return line;
+    }),
+  );
 }
