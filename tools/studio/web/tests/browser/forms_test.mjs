@@ -316,5 +316,17 @@ export default async function({ folder, context, start, open, faults, step }) {
   await teams.getByTitle(/^Undo: B_1\/Motor.excGain = 2/).waitFor();
   await teams.close();
 
+  step('a number of the run that is none stays in sight until Stop takes it out');
+  const endless = await begin(['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world', '--set', 'Selection/Explore.excGain=1e308', '--set', 'Selection/Const Speed.spkAmpl=1e308']);
+  const told = endless.getByRole('alert').filter({ hasText: "In cycle 1 'vm' of 'Selection/Explore' becomes inf in cell (5, 1)" });
+  for (let n = 0; n < 2; n++) {
+    await endless.getByRole('button', { name: /^Step/ }).first().click();
+    await endless.getByRole('button', { name: /^Step/ }).first().click();
+    await told.waitFor();
+    await told.getByRole('button', { name: 'Stop' }).click();
+    await told.waitFor({ state: 'detached' });
+  }
+  await endless.close();
+
   assert.deepEqual(faults, []);
 }
