@@ -3,6 +3,10 @@ import type { WorldItem, WorldPart } from '../protocol/messages';
 
 export type View = { x: number; y: number; width: number; height: number };
 
+/** The rays around a light of this radius. */
+export const rays = (radius: number): string =>
+  Array.from({ length: 8 }, (_, i) => [Math.cos((i * Math.PI) / 4), Math.sin((i * Math.PI) / 4)] as const).map(([x, y]) => `M${1.2 * radius * x},${1.2 * radius * y} L${1.5 * radius * x},${1.5 * radius * y}`).join(' ');
+
 /** How far an item reaches from its place. */
 export const reach = (i: WorldItem): number => Math.max(0.15, ...i.parts.map((p) => Math.hypot(p.x, p.y) + Math.hypot(...p.size) / (p.size.length === 1 ? 1 : 2)));
 

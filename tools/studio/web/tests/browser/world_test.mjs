@@ -24,6 +24,11 @@ export default async function({ forage, folder, start, open, faults, step }) {
   step('what the map says about itself does not cover it');
   assert.ok((await map.boundingBox()).y + (await map.boundingBox()).height <= (await world.getByText('Drag or use the arrows').boundingBox()).y);
 
+  step('a click beside all things chooses the floor, and says that its picture does not move');
+  await page.mouse.click(...(await at(0.4, 0.42)));
+  await world.getByText('What is painted on GroundPlane is part of its picture').waitFor();
+  assert.equal(await field('Name').inputValue(), 'GroundPlane');
+
   step('a wall is added by a click, dragged, and given numbers');
   const items = await map.getByRole('button').count();
   await world.getByRole('button', { name: 'wall', exact: true }).click();
