@@ -58,7 +58,14 @@ std::optional<Recorded> selected(const Recorded& what, const expression::Source&
     if (!within(r.x, r.width, all.x, all.width) || !within(r.y, r.height, all.y, all.height))
         return std::nullopt;
     out.cells = r;
-    if (source.cells) out.name += fmt::format("({},{})", interval(r.x, r.width), interval(r.y, r.height));
+    if (source.cells) {
+        const auto text_of = [](const model::Region& some) {
+            return fmt::format("({},{})", interval(some.x, some.width), interval(some.y, some.height));
+        };
+        // What was recorded of some cells is named by them.
+        if (const auto own = text_of(all); out.name.ends_with(own)) out.name.resize(out.name.size() - own.size());
+        out.name += text_of(r);
+    }
     if (!source.reduction.empty())
         out.reduction = source.reduction, out.name.insert(0, std::string(source.reduction) + ":");
     return out;

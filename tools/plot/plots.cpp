@@ -92,6 +92,8 @@ Picture RowPlot::picture(const PlotContext& context) const {
         TimePlot p;
         p.title = what_.name, p.subtitle = context.run, p.quantity = quantity();
         const model::Region& cells = what_.cells;
+        if (const auto titles = what_.titles(); what_.size() == 1 && !what_.one_number() && what_.names.any())
+            p.title += ": " + titles.front();
         const bool places = cells.height > 1 && !what_.numbered;
         const bool pairs = places || (what_.size() <= max_lines && !what_.numbered);
         const bool named = what_.names.any() && !what_.synapses && !what_.numbered;

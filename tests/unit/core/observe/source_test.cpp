@@ -27,6 +27,8 @@ TEST_CASE("A part of a recording has its cells row by row") {
     CHECK(part->what.cell_name(2) == "x2_y3");
     // Of a recording that is a part itself, the same cells have the same names.
     CHECK(part_of(part->what, expression::parse_source("P/G(3,3)"))->numbers == std::vector<std::size_t>{3});
+    CHECK(part_of(part->what, expression::parse_source("P/G(2..3,2..3)"))->what.name == "P/G:act(2..3,2..3)");
+    CHECK(part_of(part->what, expression::parse_source("P/G(3,3)"))->what.name == "P/G:act(3,3)");
     for (const char* outside : {"P/G(4..5,1)", "P/G(0,1)", "P/G(3..2,1)", "P/G(1,4)"})
         CHECK_FALSE(part_of(recorded(4, 3), expression::parse_source(outside)));
 }
