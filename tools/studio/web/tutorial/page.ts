@@ -127,6 +127,11 @@ export function makePage(id: string, markdown: string, ids: string[]): TutorialP
         page.pictures.push(name);
         return `<button type="button" class="picture" title="Enlarge"><img src="picture:${name}" alt="${escape(text)}" loading="lazy"></button>`;
       },
+      // Pictures side by side would be too small to read: each is as wide as the text.
+      table({ header, rows }) {
+        if (!rows.every((row) => row.every((c) => c.tokens.length === 1 && c.tokens[0]!.type === 'image'))) return false;
+        return rows.map((row) => row.map((c, i) => `<figure><figcaption>${this.parser.parseInline(header[i]!.tokens)}</figcaption>${this.parser.parseInline(c.tokens)}</figure>\n`).join('')).join('');
+      },
       link({ href, tokens }) {
         const text = this.parser.parseInline(tokens);
         const to = href.replace(/\.md$/, '');

@@ -17,6 +17,11 @@ describe('pages of the tutorial', () => {
     expect(made.html).toContain('<img src="picture:1.png" alt="An arena" loading="lazy">');
     expect(made.html.trim().endsWith('</details>')).toBe(true);
   });
+  it('have pictures of a table one below the other, each below its heading', () => {
+    const { html } = page('| a *b* | c |\n|---|---|\n| ![A](pictures/1.png) | ![C](pictures/2.png) |\n\n| d |\n|---|\n| 1 |\n');
+    expect(html).toMatch(/^<figure><figcaption>a <em>b<\/em><\/figcaption><button [^>]*><img src="picture:1.png"[^]*<figcaption>c<\/figcaption><button [^>]*><img src="picture:2.png"/);
+    expect(html.match(/<table>/g)).toHaveLength(1);
+  });
   it('have formulas as MathML, each with its meaning, in terms between which lines may break', () => {
     const { html } = page("A:\n\n    y = W'x          the prediction\n    W += eta [ (x - 2)' + rho e ]\n\n`eta` is a rate, `eta` again.\n");
     expect(html).toContain('<math><mi>y</mi><mo form="infix">=</mo><msup><mi>W</mi><mi mathvariant="normal">T</mi></msup><mi>x</mi></math></p><span>the prediction</span>');
