@@ -21,5 +21,12 @@ export function byStart(trials: Trial[], most = 12): { start: string; trials: Tr
 /** An action, and the course of the run in which it was done. */
 export type Done = ActionMessage & { epoch?: number };
 
+/** Actions that leave the run as it is. */
+const idle = ['run_until', 'save', 'compare_end', 'sample', 'sample_stop', 'world_edit'];
+const changes = (a: Done) => a.generation !== undefined && !idle.includes(a.command);
+
 /** What was done last to this course of the run; undefined when nothing was. */
-export const lastChange = (log: Done[], epoch: number | undefined): Done | undefined => [...log].reverse().find((a) => a.epoch === epoch && a.cycle > 0 && a.generation !== undefined && !['run_until', 'save'].includes(a.command));
+export const lastChange = (log: Done[], epoch: number | undefined): Done | undefined => [...log].reverse().find((a) => a.epoch === epoch && a.cycle > 0 && changes(a));
+
+/** What was changed after an entry of the log, as titles, each once. */
+export const changedSince = (log: Done[], mark: Done | undefined): string[] => [...new Set(log.slice(mark ? log.indexOf(mark) + 1 : 0).filter(changes).map((a) => a.title))];

@@ -1,5 +1,5 @@
 import { expect, it } from 'vitest';
-import { byStart } from '../../src/draw/trials';
+import { byStart, changedSince, type Done } from '../../src/draw/trials';
 import type { Trial } from '../../src/protocol/messages';
 
 const trial = (number: number, reached: boolean, start: [number, number, number] = [0, 0, 0]): Trial => ({ number, seconds: 1, first_cycle: 0, cycles: 60, reached_target: reached, start, end: start, smallest_distance: 1 });
@@ -8,4 +8,12 @@ it('trials stand by their starts, and random starts in one row', () => {
   const some = [trial(1, true), trial(2, false, [1, 0, Math.PI / 2]), trial(3, true, [-0.001, 0, 0.02])];
   expect(byStart(some).map((r) => [r.start, r.trials.map((t) => t.number)])).toEqual([['0.0, 0.0 m, 0°', [1, 3]], ['1.0, 0.0 m, 90°', [2]]]);
   expect(byStart(some, 1)).toHaveLength(1);
+});
+
+it('what was changed since is named once, without runs and files', () => {
+  const done = (command: string, title: string) => ({ command, title, generation: 1 }) as Done;
+  const log = [done('set', 'A.x = 1'), done('run_until', 'run'), done('set', 'A.y = 2'), done('save', 'save'), done('edit', 'B'), done('set', 'A.y = 2')];
+  expect(changedSince(log, log[1])).toEqual(['A.y = 2', 'B']);
+  expect(changedSince(log, log[5])).toEqual([]);
+  expect(changedSince(log, undefined)).toEqual(['A.x = 1', 'A.y = 2', 'B']);
 });
