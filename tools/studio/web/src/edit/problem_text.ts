@@ -3,16 +3,16 @@ import type { DocumentProblem } from '../protocol/messages';
 import { model } from '../stores/model.svelte';
 import { editing } from './document.svelte';
 
-/** Names a missing port by the label of its field; returns other problems unchanged. */
+/** Names a port by the label of its field; returns other problems unchanged. */
 export function formProblem(p: DocumentProblem): { message: string; hint?: string } {
   const item = model.find(p.item);
-  if (!p.unset) return p;
   if (item?.kind === 'process') {
     const type = editing.types?.modules.find((t) => t.type === item.process.module?.type);
-    const port = [...(type?.inputs ?? []), ...(type?.outputs ?? [])].find((q) => q.name === p.port);
+    const port = [...(type?.inputs ?? []), ...(type?.outputs ?? [])].find((q) => q.name === p.port), named = `'${p.port}' needs `;
+    if (!p.unset) return port?.label && p.message.startsWith(named) ? { ...p, message: `${port.label} ('${port.name}') needs ${p.message.slice(named.length)}` } : p;
     return { message: `${port?.label || p.port} of the module of ${item.process.name} has no group`, hint: 'Choose one in its form.' };
   }
-  if (item?.kind === 'connection') {
+  if (p.unset && item?.kind === 'connection') {
     const port = editing.types?.synapses.find((t) => t.type === item.connection.type)?.feedback?.find((q) => q.name === p.port);
     return { message: `${port?.label || p.port} of the synapse of ${item.connection.name} has no state`, hint: 'Choose one in its form.' };
   }

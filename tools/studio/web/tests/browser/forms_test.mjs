@@ -260,6 +260,16 @@ export default async function({ folder, context, start, open, faults, step }) {
   await page.keyboard.press('Control+z');
   await page.getByRole('button', { name: 'earlier version runs' }).waitFor({ state: 'detached' });
 
+  step('a size that the module cannot use is named by the label of the port; a button sets the one that fits');
+  await row('bug.light').click();
+  await heading('Bug/Light');
+  await inspector.getByLabel('Columns').fill('100');
+  await inspector.getByLabel('Columns').press('Enter');
+  await page.getByRole('group', { name: 'Problems' }).getByRole('button', { name: /^\w[\w ]* \('_\w+'\) needs 32 x 1 cells; 'Bug\/Light' is 100 x 1/ }).waitFor();
+  await page.getByRole('group', { name: 'Problems' }).getByRole('button', { name: 'Make Light 32 × 1' }).click();
+  await page.getByText('The system has no problems').waitFor();
+  assert.equal(await inspector.getByLabel('Columns').inputValue(), '32');
+
   step('Ctrl+K has the actions of the menus; a backup is written beside the file');
   await find(page, 'Save a backup');
   await page.getByText(/^The backup is dac_foraging\.iqr,/).waitFor();
@@ -318,13 +328,13 @@ export default async function({ folder, context, start, open, faults, step }) {
 
   step('a number of the run that is none stays in sight until Stop takes it out');
   const endless = await begin(['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world', '--set', 'Selection/Explore.excGain=1e308', '--set', 'Selection/Const Speed.spkAmpl=1e308']);
-  const told = endless.getByRole('alert').filter({ hasText: "In cycle 1 'vm' of 'Selection/Explore' becomes inf in cell (5, 1)" });
+  const shown = endless.getByRole('alert').filter({ hasText: "In cycle 1 'vm' of 'Selection/Explore' becomes inf in cell (5, 1)" });
   for (let n = 0; n < 2; n++) {
     await endless.getByRole('button', { name: /^Step/ }).first().click();
     await endless.getByRole('button', { name: /^Step/ }).first().click();
-    await told.waitFor();
-    await told.getByRole('button', { name: 'Stop' }).click();
-    await told.waitFor({ state: 'detached' });
+    await shown.waitFor();
+    await shown.getByRole('button', { name: 'Stop' }).click();
+    await shown.waitFor({ state: 'detached' });
   }
   await endless.close();
 
