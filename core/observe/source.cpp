@@ -63,7 +63,8 @@ std::optional<Recorded> selected(const Recorded& what, const expression::Source&
             return fmt::format("({},{})", interval(some.x, some.width), interval(some.y, some.height));
         };
         // What was recorded of some cells is named by them.
-        if (const auto own = text_of(all); out.name.ends_with(own)) out.name.resize(out.name.size() - own.size());
+        if (const auto own = text_of(all); out.name.ends_with(own))
+            out.name.resize(out.name.size() - own.size());
         out.name += text_of(r);
     }
     if (!source.reduction.empty())

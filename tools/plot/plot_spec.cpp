@@ -10,6 +10,21 @@
 
 namespace forage::plot {
 
+std::vector<std::string> PlotSpec::sources() const {
+    const std::string all = source();
+    std::vector<std::string> out;
+    bool quoted = false;
+    std::size_t begin = 0;
+    for (std::size_t i = 0; kind == Kind::time && i < all.size(); ++i) {
+        quoted = quoted != (all[i] == '"');
+        if (quoted || all.compare(i, 3, "), ") != 0) continue;
+        out.push_back(all.substr(begin, i + 1 - begin));
+        begin = i + 3;
+    }
+    out.push_back(all.substr(begin));
+    return out;
+}
+
 bool PlotSpec::wants(std::uint64_t cycle) const {
     return cycles.empty() || std::ranges::any_of(cycles, [&](const Cycles& c) { return c.contains(cycle); });
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/model/expression.h"
 #include "tools/plot/canvas.h"
@@ -17,6 +18,8 @@ struct PlotSpec : expression::Plot {
 
     /// The source of the rows of numbers. A connection at given cycles is its weights.
     std::string source() const { return of_connection() ? "\"" + what + "\":weight" : what; }
+    /// The sources of a plot over time, one after each "), "; else the only one.
+    std::vector<std::string> sources() const;
     bool wants(std::uint64_t cycle) const;
     /// The wanted cycles that are greater than `end`: "5..7, 9000"; empty when there are none.
     std::string after(std::uint64_t end) const;

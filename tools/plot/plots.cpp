@@ -86,7 +86,49 @@ std::string RowPlot::draw(Format format, const PlotContext& context) const {
     return render_animation(space_animation(space(context)), seconds_per_frame);
 }
 
+void RowPlot::join(RowPlot other) {
+    std::size_t lines = curves_.size() + other.curves_.size();
+    for (const auto& plot : joined_) lines += plot.curves_.size();
+    if (lines > max_lines)
+        throw std::runtime_error(
+            fmt::format("'{}': a plot of several sources has at most {} lines", spec_.text, max_lines));
+    joined_.push_back(std::move(other));
+}
+
+/// The curves of several sources. Those of one column are named by their cells, others by their column, too.
+Picture RowPlot::lines_together(const PlotContext& context) const {
+    const auto column = [](const RowPlot& plot) {
+        const std::string& name = plot.what_.name;
+        return plot.what_.one_number() ? name : name.substr(0, name.rfind('('));
+    };
+    TimePlot p;
+    p.title = column(*this), p.subtitle = context.run, p.quantity = quantity();
+    p.seconds_per_cycle = context.seconds_per_cycle;
+    std::vector<Curve> curves = curves_;
+    bool same = true;
+    for (const auto& other : joined_) {
+        same = same && column(other) == p.title;
+        if (other.quantity() != p.quantity) p.quantity = "value";
+        curves.insert(curves.end(), other.curves_.begin(), other.curves_.end());
+    }
+    if (!same) {
+        auto curve = curves.begin();
+        p.title.clear();
+        const auto name = [&](const RowPlot& plot) {
+            for (std::size_t i = 0; i < plot.curves_.size(); ++i, ++curve)
+                curve->rename(plot.what_.one_number() ? column(plot) : column(plot) + ": " + curve->name());
+        };
+        name(*this);
+        for (const auto& other : joined_) name(other);
+    }
+    if (context.trials.size() > 1 && context.trials.size() <= max_marks)
+        p.marks = context.trials, p.mark_name = "a trial begins";
+    p.curves = curves;
+    return time_plot(p);
+}
+
 Picture RowPlot::picture(const PlotContext& context) const {
+    if (!joined_.empty()) return lines_together(context);
     if (spec_.kind == PlotSpec::Kind::time) {
         if (curves_.empty() || curves_[0].bins().empty()) throw nothing();
         TimePlot p;
@@ -274,7 +316,7 @@ std::vector<PlotSpec> add_plots(const std::vector<model::Expression>& plots, Run
             if (!run.environment())
                 diagnostics.error(at, "a trajectory needs a world", "add --world FILE.world");
             trajectories.push_back(std::move(*spec));
-        } else if (spec->of_results()) {
+        } else if (spec->of_results() || spec->sources().size() > 1) {
             diagnostics.error(at, fmt::format("'{}' is drawn from results", plot.text),
                               fmt::format("'forage plot DIR {}' draws it afterwards", plot.text));
         } else if (spec->of_cells()) {

@@ -42,6 +42,8 @@ class RowPlot {
     /// `system` is used by wiring plots.
     RowPlot(PlotSpec spec, const observe::Recorded& what, const model::System* system = nullptr);
     void add(std::uint64_t cycle, std::span<const double> numbers);
+    /// Draws the curves of another plot over time together with those of this one.
+    void join(RowPlot other);
     /// The picture as the content of a file. Throws std::runtime_error when it cannot be drawn, and when
     /// there was no row of the given cycles.
     std::string draw(Format format, const PlotContext& context) const;
@@ -66,6 +68,7 @@ class RowPlot {
     SpacePlot space(const PlotContext& context) const;
     std::runtime_error nothing() const;
     std::string quantity() const;
+    Picture lines_together(const PlotContext& context) const;
 
     PlotSpec spec_;
     observe::Recorded what_;
@@ -73,6 +76,7 @@ class RowPlot {
     std::vector<Curve> curves_;         ///< one per cell, or per cells_per_row_ neighbours
     std::size_t cells_per_row_ = 1;
     std::vector<SpaceFrame> frames_;
+    std::vector<RowPlot> joined_;
     std::uint64_t rows_ = 0, keep_every_ = 1, first_ = 0, last_ = 0;
 };
 

@@ -29,6 +29,7 @@ class Curve {
         void checkpoint(Archive& archive) { archive(first, last, begin, end, low, high, count); }
     };
     const std::string& name() const { return name_; }
+    void rename(std::string name) { name_ = std::move(name); }
     const std::vector<Bin>& bins() const { return bins_; }
 
     void checkpoint(Archive& archive) { archive(bins_, per_bin_); }

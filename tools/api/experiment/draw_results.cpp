@@ -208,8 +208,18 @@ std::optional<plot::Picture> draw_other(const PlotSpec& spec, Results& results,
 std::optional<plot::Picture> draw_picture(const PlotSpec& spec, Results& results,
                                           const std::optional<Loaded>& loaded, Diagnostics& diagnostics) {
     if (!spec.of_cells()) return draw_other(spec, results, loaded, diagnostics);
-    const auto rows = draw_rows(results, spec, loaded, diagnostics);
-    return rows ? std::optional(rows->picture(results.context)) : std::nullopt;
+    std::optional<plot::RowPlot> rows;
+    for (const auto& source : spec.sources()) {
+        PlotSpec one = spec;
+        if (spec.kind == Kind::time) one.what = source;
+        auto some = draw_rows(results, one, loaded, diagnostics);
+        if (!some) return std::nullopt;
+        if (rows)
+            rows->join(std::move(*some));
+        else
+            rows = std::move(some);
+    }
+    return rows->picture(results.context);
 }
 
 std::string render(const plot::Picture& picture, const std::optional<plot::FigureWidth>& width,

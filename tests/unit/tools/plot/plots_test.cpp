@@ -49,3 +49,15 @@ TEST_CASE("Neighbours of the same name share a tick") {
     CHECK(name_ticks({"red", "red", "blue"}, 1) ==
           std::vector<std::pair<double, std::string>>{{1.5, "red"}, {3, "blue"}});
 }
+
+TEST_CASE("A plot over time has several sources, each after a closing parenthesis") {
+    const auto sources = [](const char* text) {
+        forage::Diagnostics diagnostics;
+        return parse_plot(text, "--plot", diagnostics)->sources();
+    };
+    using Texts = std::vector<std::string>;
+    CHECK(sources("time:A/B(1,1), mean(C/D)@0..9") == Texts{"A/B(1,1)", "mean(C/D)"});
+    CHECK(sources("time:A/B, C(2,1)") == Texts{"A/B, C(2,1)"});
+    CHECK(sources("time:\"A/B (x), C\", D/E") == Texts{"\"A/B (x), C\", D/E"});
+    CHECK(sources("space:A/B(1,1), C/D") == Texts{"A/B(1,1), C/D"});
+}

@@ -53,8 +53,10 @@ FigureNeeds needs_of(Session& s, const Request& r) {
         throw InputError("a figure is one file", "several plots need a layout, such as 2x1");
     for (const auto& text : r.texts("plots"))
         if (const auto spec = plot::parse_plot(text, "plot", diagnostics)) {
-            if (spec->of_cells() && std::ranges::find(out.sources, spec->source()) == out.sources.end())
-                out.sources.push_back(spec->source());
+            if (spec->of_cells())
+                for (const auto& source : spec->sources())
+                    if (std::ranges::find(out.sources, source) == out.sources.end())
+                        out.sources.push_back(source);
             out.paths = out.paths || spec->kind == plot::PlotSpec::Kind::trajectory ||
                         spec->kind == plot::PlotSpec::Kind::occupancy;
             out.trials = out.trials || spec->kind == plot::PlotSpec::Kind::learning;
