@@ -56,7 +56,10 @@ describe('a group', () => {
 describe('a problem', () => {
   it('about a port or an input names its field', () => {
     expect(formProblem({ message: "the cross reference '_motor' of moduleBug is not set", item: 'p', port: '_motor', unset: true }).message).toBe('Motor of the module of P has no group');
-    expect(formProblem({ message: "'_motor' needs 9 x 9 cells; 'P/M' is 1 x 1", item: 'p', port: '_motor', hint: 'make the group 9 x 9' })).toMatchObject({ message: "Motor ('_motor') needs 9 x 9 cells; 'P/M' is 1 x 1", hint: 'make the group 9 x 9' });
+    expect(formProblem({ message: "'_motor' needs 9 x 9 cells; 'P/M' is 1 x 1", item: 'p', port: '_motor', hint: 'make the group 9 x 9' })).toMatchObject({
+      message: "Motor ('_motor') needs 9 x 9 cells; 'P/M' is 1 x 1",
+      hint: 'make the group 9 x 9',
+    });
     expect(formProblem({ message: "the feedback input 'postact' of synapseLearning is not set", item: 'inner', port: 'postact', unset: true }).message).toBe('Activity of the synapse of inner has no state');
   });
   it('of another kind keeps the words of the file', () => {
