@@ -76,7 +76,7 @@ const tasks: Record<FileAction, (process: string) => FileTask> = {
     name: newName,
     act: async () => {
       await request('new', { name: fileDialog.name.trim(), world: fileDialog.world.trim(), from: fileDialog.template });
-      await request('speed', { mode: 'real' }); // not that of what was open before
+      void command('speed', { mode: 'real' }); // not that of what was open before
     },
   }),
   world: () => ({
