@@ -37,7 +37,7 @@ export default async function({ folder, start, open, step }) {
   await page.locator('.panel .bar button.primary').filter({ hasText: 'Record' }).click();
   await page.getByText('begins with the run').waitFor();
   await page.locator('body').press('.');
-  await page.getByText('rows in gps_001.dat').waitFor();
+  await page.getByText('1 row in gps_001.dat').waitFor();
 
   step('the time plot draws a line');
   await page.getByRole('button', { name: '4×' }).click();

@@ -158,7 +158,7 @@ export default async function({ start, open, faults, step }) {
   const trials = page.getByRole('group', { name: 'Trials' });
   await trials.getByLabel('Number of trials').fill('3');
   await trials.getByRole('button', { name: 'Run', exact: true }).click();
-  await trials.getByText(/^\d of 3 reached the target: \d+ % \(95 % interval/).waitFor();
+  await trials.getByText(/^\d of 3 reached the target: \d+\s% \(95\s% interval/).waitFor();
   await page.getByRole('group', { name: 'Run' }).getByRole('button', { name: 'Run', exact: true }).waitFor(); // it is paused
   assert.equal(await trials.locator('dd i').count(), 3);
   await picture(page, 'trials');

@@ -34,6 +34,8 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await world.getByRole('button', { name: 'wall', exact: true }).click();
   await page.mouse.click(...(await at(0.4, 0.42)));
   const wall = map.locator('.chosen');
+  await map.getByRole('button').nth(items).waitFor();
+  await until(page, 'the form of the wall', () => ![...document.querySelectorAll('[aria-label^="Properties of"] input')].some((i) => i.value === 'GroundPlane'));
   await wall.waitFor();
   const name = await field('Name').inputValue();
   assert.equal(await map.getByRole('button').count(), items + 1);
@@ -280,6 +282,7 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await begin.getByRole('list', { name: 'Files' }).waitFor({ state: 'detached' });
   await begin.getByLabel('Name').press('Enter');
   await until(page, 'the new system', () => document.title.includes('Another'));
+  await begin.waitFor({ state: 'detached' });
   await find(page, 'edit the world');
   await list.selectOption('open_arena');
   await field('Ambient light').fill('0,7');
