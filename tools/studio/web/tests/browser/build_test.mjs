@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { find, picture, until } from './support.mjs';
+import { eventually, find, picture, until } from './support.mjs';
 
 // What the tutorial says of the groups: place on the page, size, and the parameters that differ from the defaults.
 const relay = {};
@@ -333,9 +333,16 @@ export default async function({ forage, folder, start, open, faults, step }) {
     await until(page, 'the chooser at the top of the form', () => document.querySelector('[data-field="cells"]').getBoundingClientRect().top < document.querySelector('aside.right .scroll').getBoundingClientRect().top + 60);
     await inspector.getByText('Cell 1: left 172°, 16: left 6°, 17: right 6°, 32: right 172°').waitFor();
     await close();
-    const [x, y] = await diagram.locator('g[data-connection] .thin').evaluate((path) => {
-      const { x, y } = path.getPointAtLength(path.getTotalLength() / 2).matrixTransform(path.getScreenCTM());
-      return [x, y];
+    // The diagram takes the room of the inspector.
+    let [x, y, rests] = [0, 0, 0];
+    await eventually('the line at rest', async () => {
+      const [nextX, nextY] = await diagram.locator('g[data-connection] .thin').evaluate((path) => {
+        const { x, y } = path.getPointAtLength(path.getTotalLength() / 2).matrixTransform(path.getScreenCTM());
+        return [x, y];
+      });
+      rests = nextX === x && nextY === y ? rests + 1 : 0;
+      [x, y] = [nextX, nextY];
+      return rests > 20;
     });
     await page.mouse.dblclick(x, y);
     await until(page, 'the chooser of cells with the focus, and no text that is selected', () => document.activeElement.matches('[data-field="cells"] select') && String(getSelection()) === '');
