@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { existsSync } from 'node:fs';
 import { join } from 'node:path';
-import { accessible, answeredTo, find, picture, sent, until } from './support.mjs';
+import { accessible, answeredTo, eventually, find, picture, sent, until } from './support.mjs';
 
 export default async function({ site, folder, start, open, faults, step }) {
   const page = await open(await start().address);
@@ -300,7 +300,10 @@ export default async function({ site, folder, start, open, faults, step }) {
     const { offsetWidth, offsetHeight } = document.querySelector('[role="group"][aria-label="Arena"]');
     return offsetWidth >= 260 && offsetHeight >= 200;
   });
+  const wide = () => JSON.stringify(Object.entries(localStorage).filter(([key]) => /^layout (?!narrow |small )/.test(key)));
+  const closed = await page.evaluate(wide); // the tutorial was closed when the window was wide
   await page.setViewportSize({ width: 1400, height: 900 });
+  await eventually('the wide arrangement is kept', async () => (await page.evaluate(wide)) !== closed);
 
   step('links lead to other parts; after reloading the same part is shown');
   await page.reload();
