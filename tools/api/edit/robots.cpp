@@ -8,6 +8,7 @@
 #include "core/model/build.h"
 #include "core/model/lookup.h"
 #include "core/model/operations.h"
+#include "core/model/validate.h"
 #include "core/run/input_error.h"
 
 namespace forage::editing {
@@ -40,13 +41,16 @@ const ModulePort* find_port(const Process& process, const Registry& registry, co
 }  // namespace
 
 std::optional<GroupShape> size_at_port(const Process& process, const Registry& registry,
-                                       const std::string& port) {
+                                       const std::string& port, const GroupShape& shape) {
     const auto* found = find_port(process, registry, port);
     if (!found || !found->size.nearest) return std::nullopt;
-    const auto module = registry.module(process.module->type)->make();
+    const auto& type = *registry.module(process.module->type);
+    const auto module = type.make();
+    apply(*process.module, type.parameters, module->parameters());
     const ModulePorts none;
     PortSizes sizes(none);
-    return found->size.nearest(module->parameters(), sizes, rectangle(1, 1));
+    const GroupShape size = found->size.nearest(module->parameters(), sizes, shape);
+    return sizes.complete() ? std::optional(size) : std::nullopt;
 }
 
 std::vector<std::string> add_port_groups(System& system, const Registry& registry, const std::string& process,
@@ -62,7 +66,7 @@ std::vector<std::string> add_port_groups(System& system, const Registry& registr
         if (leads_somewhere(p->module->inputs, name) || leads_somewhere(p->module->outputs, name))
             throw InputError(fmt::format("the port '{}' has a group", name),
                              "choose another group in its form");
-        const auto size = size_at_port(*p, registry, name).value_or(rectangle(1, 1));
+        const auto size = size_at_port(*p, registry, name, rectangle(1, 1)).value_or(rectangle(1, 1));
         const int place = static_cast<int>(p->groups.size());
         const auto label = port->label.empty() ? port->name : port->label;
         const auto made = model::add_group(system, process, free_name(*p, label), size.width, size.height,

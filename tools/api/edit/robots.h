@@ -20,8 +20,9 @@ std::vector<std::string> add_port_groups(model::System& system, const Registry& 
 std::string add_robot(model::System& system, const Registry& registry, const std::string& robot,
                       const std::string& id);
 
-/// The size that a group at a port of this process would have; nothing when any will do.
+/// The size nearest to `shape` that the module of a process accepts for a group at this port; nothing when
+/// any will do, or when it follows from groups at other ports.
 std::optional<GroupShape> size_at_port(const model::Process& process, const Registry& registry,
-                                       const std::string& port);
+                                       const std::string& port, const GroupShape& shape);
 
 }  // namespace forage::editing

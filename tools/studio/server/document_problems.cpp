@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "core/base/sequence.h"
 #include "tools/api/edit/robots.h"
 #include "tools/studio/server/problems.h"
 
@@ -11,6 +12,14 @@ namespace {
 
 bool leads_nowhere(const std::vector<model::CrossReference>& all, const std::string& name) {
     return std::ranges::none_of(all, [&](const auto& r) { return r.name == name && !r.target.empty(); });
+}
+
+/// The group of a process with a module to which a port leads; null when there is none.
+const model::Group* group_at(const model::Process& process, const std::string& port) {
+    for (const auto* references : {&process.module->inputs, &process.module->outputs})
+        for (const auto& r : *references)
+            if (r.name == port) return find_by(process.groups, r.target, &model::Group::id);
+    return nullptr;
 }
 
 /// Whether an item lacks what its type requires at this port of a module or input of a synapse.
@@ -42,12 +51,14 @@ json problems_of(const std::vector<Document::Problem>& problems, const model::Sy
         row["item"] = p.item.empty() ? json(nullptr) : json(p.item);
         if (const auto& port = p.diagnostic.port; !port.empty()) {
             row["port"] = port;
-            if (is_unset(p.item, port, system, registry)) {
-                row["unset"] = true;
-                const auto process = std::ranges::find(system.processes, p.item, &model::Process::id);
-                if (process != system.processes.end())
-                    if (const auto size = editing::size_at_port(*process, registry, port))
-                        row["size"] = {size->width, size->height};
+            const bool unset = is_unset(p.item, port, system, registry);
+            if (unset) row["unset"] = true;
+            const auto process = std::ranges::find(system.processes, p.item, &model::Process::id);
+            if (process != system.processes.end() && process->module) {
+                const auto* group = group_at(*process, port);
+                const GroupShape shape = group ? model::shape(group->topology) : rectangle(1, 1);
+                const auto size = editing::size_at_port(*process, registry, port, shape);
+                if (size && (unset || *size != shape)) row["size"] = {size->width, size->height};
             }
         }
         if (!p.diagnostic.parameter.empty()) row["parameter"] = p.diagnostic.parameter;

@@ -13,11 +13,12 @@ export function fixesOf(p: DocumentProblem): Fix[] {
   const item = model.find(p.item);
   if (item?.kind !== 'process') return [];
   const id = item.process.id;
-  // The hint of `forage check` says the size.
-  const size = p.port && /^make the group (\d+) x (\d+)(;|$)/.exec(p.hint ?? '');
-  const group = size && model.group([...(item.process.module?.inputs ?? []), ...(item.process.module?.outputs ?? [])].find((q) => q.name === p.port)?.group ?? '');
-  if (size && group) return [{ label: `Make ${group.name} ${size[1]} × ${size[2]}`, act: () => edit({ do: 'topology', id: group.id, width: Number(size[1]), height: Number(size[2]) }) }];
-  if (p.port && p.size) return [{ label: `Create group ${p.size[0]} × ${p.size[1]}`, act: () => edit({ do: 'port_groups', id, ports: [p.port!] }) }];
+  if (p.port && p.size) {
+    const [width, height] = p.size;
+    if (p.unset) return [{ label: `Create group ${width} × ${height}`, act: () => edit({ do: 'port_groups', id, ports: [p.port!] }) }];
+    const group = model.group([...(item.process.module?.inputs ?? []), ...(item.process.module?.outputs ?? [])].find((q) => q.name === p.port)?.group ?? '');
+    if (group) return [{ label: `Make ${group.name} ${width} × ${height}`, act: () => edit({ do: 'topology', id: group.id, width, height }) }];
+  }
   if (p.parameter === 'device_name') return (model.world?.robots ?? []).slice(0, 3).map((r) => ({ label: `Use '${r.name}'`, act: () => edit({ do: 'parameter', id, name: 'device_name', value: r.name }) }));
   return [];
 }

@@ -8,8 +8,8 @@ export function formProblem(p: DocumentProblem): { message: string; hint?: strin
   const item = model.find(p.item);
   if (item?.kind === 'process') {
     const type = editing.types?.modules.find((t) => t.type === item.process.module?.type);
-    const port = [...(type?.inputs ?? []), ...(type?.outputs ?? [])].find((q) => q.name === p.port), named = `'${p.port}' needs `;
-    if (!p.unset) return port?.label && p.message.startsWith(named) ? { ...p, message: `${port.label} ('${port.name}') needs ${p.message.slice(named.length)}` } : p;
+    const port = [...(type?.inputs ?? []), ...(type?.outputs ?? [])].find((q) => q.name === p.port);
+    if (!p.unset) return port?.label ? { ...p, message: p.message.replace(`'${port.name}'`, `${port.label} ('${port.name}')`) } : p;
     return { message: `${port?.label || p.port} of the module of ${item.process.name} has no group`, hint: 'Choose one in its form.' };
   }
   if (p.unset && item?.kind === 'connection') {

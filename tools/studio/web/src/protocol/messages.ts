@@ -227,7 +227,7 @@ export type ItemParameters = { item: string; id: string; kind: string; type: str
 
 // ---- editing ----
 
-/** `port`, `parameter`: the field of the item that it is about; `unset`: the port is required, and leads nowhere; `size`: that of the group it needs. */
+/** `port`, `parameter`: the field of the item that it is about; `unset`: the port is required, and leads nowhere; `size`: that of a group which its module accepts there. */
 export type DocumentProblem = Problem & { item?: string | null; port?: string; parameter?: string; unset?: boolean; size?: [number, number] };
 
 /** The document as it is now. The server sends it after each change. */

@@ -64,6 +64,6 @@ describe('a problem', () => {
   });
   it('of another kind keeps the words of the file', () => {
     const other = { message: 'the port has another size', item: 'p', port: '_motor' };
-    expect(formProblem(other)).toBe(other);
+    expect(formProblem(other)).toEqual(other);
   });
 });
