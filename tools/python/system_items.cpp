@@ -30,29 +30,7 @@ std::string path_of(const SystemGroup& self) {
     return model::path(self.system->model, *entry.process, *entry.group);
 }
 
-/// The item as assignments name it: by its path or name, or by its id where the name is not unique.
-std::string where(const SystemParameters& self) {
-    std::string name;
-    if (self.owner == Owner::group)
-        name = path_of({self});
-    else if (self.owner == Owner::process)
-        name = name_of(SystemProcess{self}.use());
-    else
-        name = model::trim(SystemConnection{self}.use().name);
-    Diagnostics ignored;
-    const auto item = model::find_item(self.system->model, name, "", ignored);
-    if (!item || item->id != self.id || item->owner != self.owner) name = self.id;
-    return name.find('=') == std::string::npos ? name : fmt::format("\"{}\"", name);
-}
-
-model::Assignment find(const SystemParameters& self, const std::string& name) {
-    return *checked([&](Diagnostics& found) {
-        return model::find_parameter(self.system->model, *self.system->types,
-                                     fmt::format("{}.{}", where(self), name), "parameter", found);
-    });
-}
-
-/// The type of the item; null when it has none.
+/// The parameters of the item's type; null when it has none. Throws InputError when the item was removed.
 const std::vector<Parameter>* declared(const SystemParameters& self) {
     const auto parameters = [&](const model::TypeUse& use) {
         return model::parameters_of(*self.system->types, self.owner, use.type);
@@ -64,6 +42,19 @@ const std::vector<Parameter>* declared(const SystemParameters& self) {
     }
     const auto& synapse = SystemConnection{self}.use().synapse;
     return synapse ? parameters(*synapse) : nullptr;
+}
+
+/// The item as assignments name it. Throws InputError when it was removed.
+std::string where(const SystemParameters& self) {
+    declared(self);
+    return model::assignment_name(self.system->model, self.owner, self.id);
+}
+
+model::Assignment find(const SystemParameters& self, const std::string& name) {
+    return *checked([&](Diagnostics& found) {
+        return model::find_parameter(self.system->model, *self.system->types,
+                                     fmt::format("{}.{}", where(self), name), "parameter", found);
+    });
 }
 
 void unset(const SystemParameters& self, const std::string& name) {
