@@ -4,7 +4,7 @@ import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { eventually, find, picture, until } from './support.mjs';
+import { answeredTo, eventually, find, picture, sent, until } from './support.mjs';
 
 // What the tutorial says of the groups: place on the page, size, and the parameters that differ from the defaults.
 const relay = {};
@@ -46,7 +46,10 @@ export default async function({ forage, folder, start, open, faults, step }) {
 
   step('a new system shows its diagram beside the arena, in real time, whatever was open before');
   await page.getByRole('button', { name: 'Max', exact: true }).click();
+  const kept = await sent(page, 'panels_keep');
   await find(page, 'layout: overview');
+  await answeredTo(page, 'panels_keep', kept);
+  await page.reload(); // the server has the panels of the system before
   await page.getByRole('button', { name: /Reactive foraging/ }).first().click();
   await page.getByRole('menuitem', { name: 'New' }).click();
   await page.getByRole('dialog', { name: 'New system' }).getByLabel('Name').fill('Mine');
