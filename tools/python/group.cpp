@@ -7,7 +7,6 @@
 #include <pybind11/stl.h>
 
 #include "core/base/sequence.h"
-#include "tools/python/dlpack.h"
 #include "tools/python/values.h"
 
 namespace forage::python {
@@ -185,7 +184,7 @@ types that keep several cycles (history), are copies of the last cycle's numbers
 NumPy takes a group as its activity, group[index] is a part of it, and other packages take it live and read-only by DLPack.
 
 A state that is not observed raises InputError (forage.open, observe).)");
-    add_array(type, &activity_of), add_dlpack(type, &activity_of), add_equality(type);
+    add_array(type, &activity_of), add_equality(type);
     type.def_property_readonly("act", &activity_of,
                                "The activity: the state that connections read. See the class.")
         .def_property_readonly(

@@ -47,7 +47,8 @@ void add_equality(Class& type) {
         });
 }
 
-/// Gives a class what NumPy needs to take its objects as arrays; `numbers` returns the array.
+/// Gives a class what NumPy and packages that speak DLPack need to take its objects as arrays; `numbers`
+/// returns the array.
 template <class Class, class Numbers>
 void add_array(Class& type, Numbers numbers) {
     using Self = typename Class::type;
@@ -69,7 +70,20 @@ void add_array(Class& type, Numbers numbers) {
             [numbers](const Self& self, const py::object& index) {
                 return py::object(numbers(self).attr("__getitem__")(index));
             },
-            py::arg("index"));
+            py::arg("index"))
+        .def(
+            "__dlpack__",
+            [numbers](const Self& self, const py::kwargs& options) {
+                return py::object(numbers(self).attr("__dlpack__")(**options));
+            },
+            "The numbers as a capsule of DLPack, as NumPy makes it of a read-only array: live, for "
+            "numpy.from_dlpack(group) of NumPy 2.1. Raises BufferError where NumPy or the other package "
+            "takes no "
+            "read-only arrays, such as PyTorch 2.6.")
+        .def(
+            "__dlpack_device__",
+            [numbers](const Self& self) { return py::object(numbers(self).attr("__dlpack_device__")()); },
+            "The main memory: (1, 0).");
 }
 
 /// A manipulation of a run, until it is removed.

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include "tools/python/dlpack.h"
 #include "tools/python/group.h"
 #include "tools/python/values.h"
 
@@ -98,7 +97,7 @@ void add_probes(py::module_& module) {
     py::class_<PythonProbe> type(module, "Probe", R"(A recording in memory: run.probe("Process/Group").
 
 It can be read while the run lasts and after it is closed. NumPy takes it as the array `data`, and probe[index] is a part of that.)");
-    add_array(type, &view), add_dlpack(type, &view);
+    add_array(type, &view);
     type.def_property_readonly(
             "source", [](const PythonProbe& p) { return p.use().what().name; },
             R"(What is recorded, such as "Bug/Light:act".)")
