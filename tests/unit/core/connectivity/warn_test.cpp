@@ -67,7 +67,7 @@ TEST_CASE("A pattern and an arborization that multiply give a warning") {
     w.arborization.direction = model::Direction::projective;
     CHECK(said(w) == "connection 'C' joins each pair of cells with 4 synapses\n");
     w.arborization.probability = 0.5;
-    CHECK_THAT(said(w), Catch::Contains("joins each pair of cells with up to "));
+    CHECK_THAT(said(w), ContainsSubstring("joins each pair of cells with up to "));
     w.arborization.shape = model::RectArbor{3, 1};  // may be meant
     CHECK(said(w).empty());
     w.arborization.direction = model::Direction::receptive;
