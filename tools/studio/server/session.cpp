@@ -248,7 +248,7 @@ json Session::execute(int client, const json& command) {
 
 void Session::act(const json& action, LoggedAction logged) {
     live.repeat_actions();
-    const auto& command = find_command(action.at("command"));
+    const auto& command = find_command(action.at("command").get_ref<const std::string&>());
     logged.command = command.name;
     logged.scripts = command.script(*this, action) + logged.scripts;
     command.repeat(live, action);

@@ -22,7 +22,9 @@ class Request {
     const int client;  ///< the page; -1 for none
     bool has(const char* member) const { return arguments_.contains(member); }
     const json& operator[](const char* member) const { return arguments_.at(member); }
-    std::string text(const char* member) const { return arguments_.at(member).get<std::string>(); }
+    const std::string& text(const char* member) const {
+        return arguments_.at(member).get_ref<const std::string&>();
+    }
     /// A list of texts; empty when it is absent.
     std::vector<std::string> texts(const char* member) const {
         return has(member) ? arguments_.at(member).get<std::vector<std::string>>()

@@ -45,7 +45,7 @@ json execute_command(Session& session, int client, json message) {
     const auto name = message.find("command");
     if (name == message.end() || !name->is_string())
         throw InputError("'command' is missing in the message", R"(such as {"id": 1, "command": "run"})");
-    const auto& command = find_command(name->get<std::string>());
+    const auto& command = find_command(name->get_ref<const std::string&>());
     message.erase("command"), message.erase("id");
     json arguments =
         checked(std::move(message), arguments_of(command), fmt::format("command '{}'", command.name));
