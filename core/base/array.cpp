@@ -21,7 +21,8 @@
 namespace forage {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "numbers of .npy files are read as they are");
+static_assert(std::endian::native == std::endian::little,
+              "numbers of .npy files are read without conversion");
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t max_text = std::size_t{2} << 30, max_numbers = std::size_t{2} << 30,

@@ -47,7 +47,7 @@ bool is_of_rectangles(const model::Connection& c, const model::Topology& source,
            std::holds_alternative<model::RectTopology>(target);
 }
 
-/// Whether the numbers of weights, as far as they are read, are those of so many cells.
+/// Whether the numbers of weights that were read are those of so many cells.
 bool fits(const model::Weights& weights, const std::vector<double>& list, std::size_t sources,
           std::size_t targets) {
     const Array* array = weights.array.array.get();

@@ -43,7 +43,7 @@ int number_attribute(hid_t set, const char* name) {
     return out;
 }
 
-/// Opens a data set of numbers that the file itself holds, as they are: HDF5 reads no other file, and
+/// Opens a data set of numbers that the file itself holds, unfiltered: HDF5 reads no other file, and
 /// unpacks nothing.
 Hdf5Handle open_set(hid_t file, const std::string& place) {
     Hdf5Handle out(H5Dopen2(file, place.c_str(), H5P_DEFAULT), H5Dclose, "find '" + place + "'");

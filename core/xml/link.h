@@ -17,7 +17,7 @@ struct Use {
 };
 
 /// Replaces the processes of a file that link others by the content of these files: at most once a file
-/// without ports, whose ids stay as they are, and any number of times a part, which has ports. Connections to
+/// without ports, whose ids are kept, and any number of times a part, which has ports. Connections to
 /// ports get their groups. `is_part`: the file is a process file, not a system. Returns whether all files
 /// could be taken over. `use` is how the file itself is used; null for a file that stands alone.
 bool link(model::System& system, bool is_part, const Use* use, Diagnostics& diagnostics);

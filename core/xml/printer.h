@@ -52,7 +52,7 @@ class Printer {
     }
 
   private:
-    /// Replaces special characters, which tinyxml2 would write as they are and a reader would take for
+    /// Replaces special characters, which tinyxml2 would write unchanged and a reader would take for
     /// blanks, by characters that cannot occur in XML. result() replaces these by character references.
     static std::string hidden(std::string text, std::string_view special) {
         for (char& c : text)

@@ -1,6 +1,6 @@
 // How do time and memory grow with a system?
 //
-//     bench_scaling [MOST_SYNAPSES]
+//     bench_scaling [MAX_SYNAPSES]
 //
 // Groups of linear threshold cells, 10^3 to 10^6, each fed by its own source of random spikes, and random
 // lists of 10^3 to 10^8 synapses (or as many as the argument says). Each system runs in its own process. The

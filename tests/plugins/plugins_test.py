@@ -377,7 +377,7 @@ class Found(Plugins):
         self.forage("run", system, "-c", 3, "-o", "out")
         self.assertIn("twice_a.so", (self.here / "out/run.json").read_text())
         self.forage("convert", system, "copy.iqr")
-        self.forage("check", "copy.iqr", status=2)  # the folder is beside the other one
+        self.forage("check", "copy.iqr", status=2)  # the folder is beside the first one
 
     def test_an_experiment_takes_plugins_too_and_repeats_runs_when_they_change(self):
         system = self.system("neuronTwice")

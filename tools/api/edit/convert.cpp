@@ -56,7 +56,7 @@ std::string about_import(model::System& system, const std::string& id) {
         model::trim(process.name), separated(groups, ", "));
 }
 
-/// Warns that relative paths in parameters stay as they are when the types are those of plugins that are not
+/// Warns that relative paths in parameters are unchanged when the types are those of plugins that are not
 /// loaded.
 void warn_of_paths(const Conversion& o, const model::System& system, const Registry& types,
                    Diagnostics& diagnostics) {

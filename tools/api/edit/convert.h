@@ -13,7 +13,7 @@ inline constexpr const char* standard_output = "-";
 
 /// What becomes of a file.
 struct Conversion {
-    /// .iqr or .iqrProcess files. Relative paths in the output stay as they are when it is standard_output.
+    /// .iqr or .iqrProcess files. Relative paths in the output are unchanged when it is standard_output.
     std::string input, output;
     std::vector<std::string> imports;  ///< process files to add
     /// Name or id of the process to write as a file of its own; empty: the whole system.

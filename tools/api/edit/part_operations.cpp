@@ -45,7 +45,7 @@ void read_uses(model::System& system, const std::string& path) {
     system = *std::move(read);
 }
 
-/// The ids in a file without ports stay as they are, so they must be free.
+/// The ids in a file without ports are kept, so they must be free.
 void refuse_taken_ids(const model::System& system, const model::ProcessFile& file, const std::string& path) {
     const auto refuse_taken = [&](const std::string& id) {
         const auto has_it = [&](const auto& item) { return item.id == id; };

@@ -81,7 +81,7 @@ class States final : public Matrix {
     observe::Source source_;
 };
 
-/// The numbers of <Weights>, which stay as they are.
+/// The numbers of <Weights>, which do not change.
 class FixedWeights final : public Matrix {
   public:
     FixedWeights(const engine::Layout& layout, int connection, const model::Weights& weights)

@@ -832,7 +832,7 @@ TEST_CASE("a file that changes outside is noticed, and both changes are merged")
     CHECK(e.content() == e.text());
 }
 
-TEST_CASE("another type outside and another parameter here are a conflict, and both stay as they are") {
+TEST_CASE("another type outside and another parameter here are a conflict, and both are kept") {
     Editor e;
     const std::string group = e.last["system"]["processes"][1]["groups"][0]["id"],
                       type = "neuronLinearThreshold";

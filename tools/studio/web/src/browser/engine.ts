@@ -1,4 +1,4 @@
-// The simulator: WebAssembly in two parts. The first has what a first visit calls; the other one follows while the robot already runs.
+// The simulator: WebAssembly in two parts. The first has what a first visit calls; the second one follows while the robot already runs.
 export interface Engine {
   ccall(name: string, result: 'string' | 'number' | null, types: 'string'[], values: string[]): unknown;
   FS: {

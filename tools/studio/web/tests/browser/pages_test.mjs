@@ -15,7 +15,7 @@ export default async function({ folder, start, open, faults, step }) {
   const row = (p, name) => p.getByRole('navigation').getByText(name, { exact: true }).first();
   const plot = (p, name) => p.getByRole('group', { name: `Space plot of Selection/${name}` });
 
-  step('an edit of one page closes panels of the other one, which says that Undo brings them back');
+  step('an edit of one page closes panels of the second page, which says that Undo brings them back');
   await row(second, 'UR').dblclick();
   await plot(second, 'UR').waitFor();
   await row(page, 'UR').click();

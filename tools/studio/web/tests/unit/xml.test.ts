@@ -166,7 +166,7 @@ describe('marks', () => {
 });
 
 describe('line ends', () => {
-  it('stay as they are where lines stay', () => {
+  it('do not move where lines stay', () => {
     expect(withLineEnds('a\nb\n', 'a\nc\n')).toBe('a\nc\n');
     expect(withLineEnds('a\r\nb\r\n', 'a\nb\n')).toBe('a\r\nb\r\n');
     expect(withLineEnds('a\r\nb\nc\r\nd', 'a\nb\nx\ny\nd')).toBe('a\r\nb\nx\r\ny\r\nd');
