@@ -6,8 +6,8 @@
 namespace forage::bug {
 namespace {
 
-constexpr btScalar half_height = 10;  ///< m; of boxes, so that they never part upwards
-constexpr btScalar residual = 1e-6f;  ///< (m/s)^2; the solver stops when velocities change by less
+constexpr btScalar box_half_height = 10;  ///< m; of boxes, so that they never part upwards
+constexpr btScalar residual = 1e-6f;      ///< (m/s)^2; the solver stops when velocities change by less
 constexpr int max_iterations = 20;
 /// The share of a penetration that is corrected at once. Bullet's split impulses correct positions without
 /// changing velocities, so no energy appears.
@@ -72,7 +72,7 @@ const btCollisionShape* BulletWorld::Shape::resize(const Outline& o, double larg
         sphere.setUnscaledRadius(scalar(o.radius + larger));
         return &sphere;
     }
-    box.setImplicitShapeDimensions({scalar(o.half_x + larger), scalar(o.half_y + larger), half_height});
+    box.setImplicitShapeDimensions({scalar(o.half_x + larger), scalar(o.half_y + larger), box_half_height});
     return &box;
 }
 

@@ -230,11 +230,11 @@ class Compiler {
             std::vector<std::optional<Value>> values;
             for (const auto& n : formula.nodes()) {
                 if (n.op == Op::number)
-                    values.push_back(out_.program.number(n.value));
+                    values.emplace_back(out_.program.number(n.value));
                 else if (n.op == Op::name)
-                    values.push_back(named(formula.name(n), piece.at + n.at));
+                    values.emplace_back(named(formula.name(n), piece.at + n.at));
                 else
-                    values.push_back(
+                    values.emplace_back(
                         combined(n.op, values[n.parts[0]], values[n.parts[1]], values[n.parts[2]]));
             }
             return values.back();

@@ -344,7 +344,7 @@ void make_original(ProcessFile& file, Diagnostics& diagnostics) {
     System alone = system_of(std::move(file));
     compute(alone, diagnostics);
     make_original(alone, diagnostics);
-    file.process = std::move(alone.processes.front()), file.connections = std::move(alone.connections);
+    file = {.process = std::move(alone.processes.front()), .connections = std::move(alone.connections)};
 }
 
 void embed_links(System& system) {

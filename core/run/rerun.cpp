@@ -93,7 +93,7 @@ std::optional<Rerun> from_run(const std::string& results, const std::string& dir
         }
     Rerun out{
         .command = run->command, .results = directory + "/results", .expected = results, .files = run->files};
-    if (std::ranges::find(out.files, "run.json") == out.files.end()) out.files.push_back("run.json");
+    if (std::ranges::find(out.files, "run.json") == out.files.end()) out.files.emplace_back("run.json");
     return out;
 }
 

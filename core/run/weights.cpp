@@ -114,7 +114,7 @@ NewWeights check_weights(Run& run, int connection, std::span<const double> value
     return out;
 }
 
-void set_weights(Run& run, NewWeights weights) {
+void set_weights(Run& run, NewWeights&& weights) {
     auto& [connection, state, synapses, values] = weights;
     if (state >= 0) return run.simulation().set_synapse_state(connection, state, values);
     for (std::size_t i = 0; i < values.size(); ++i) synapses.attenuation[i] = -values[i];

@@ -32,6 +32,6 @@ struct NewWeights {
 /// several synapses between two cells, and when nothing that the run computes depends on the connection.
 NewWeights check_weights(Run& run, int connection, std::span<const double> values);
 /// Sets them from the next delivery on, in this run only.
-void set_weights(Run& run, NewWeights weights);
+void set_weights(Run& run, NewWeights&& weights);
 
 }  // namespace forage

@@ -285,7 +285,7 @@ void add_run(Program& program) {
     declare_run(program.add("run", "Run a system, in a world if one is given",
                             [&] {
                                 for (char** word = program.arguments() + 1; *word; ++word)
-                                    options.spec.arguments.push_back(*word);
+                                    options.spec.arguments.emplace_back(*word);
                                 return run(options);
                             }),
                 options);

@@ -35,12 +35,13 @@ const std::vector<Parameter>* declared(const SystemParameters& self) {
     const auto parameters = [&](const model::TypeUse& use) {
         return model::parameters_of(*self.system->types, self.owner, use.type);
     };
-    if (self.owner == Owner::group) return parameters(SystemGroup{self}.use().neuron);
+    const SystemItem item{self.system, self.id};
+    if (self.owner == Owner::group) return parameters(SystemGroup{item}.use().neuron);
     if (self.owner == Owner::process) {
-        const auto& module = SystemProcess{self}.use().module;
+        const auto& module = SystemProcess{item}.use().module;
         return module ? parameters(*module) : nullptr;
     }
-    const auto& synapse = SystemConnection{self}.use().synapse;
+    const auto& synapse = SystemConnection{item}.use().synapse;
     return synapse ? parameters(*synapse) : nullptr;
 }
 

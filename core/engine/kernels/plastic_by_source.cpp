@@ -215,8 +215,8 @@ std::unique_ptr<PlasticKernel> make_plastic_by_source(const connectivity::Synaps
     if (s.size() < least * static_cast<std::size_t>(source.cells) ||
         std::any_of(s.delay.begin(), s.delay.end(), [](int delay) { return delay != 0; }))
         return nullptr;
-    constexpr double max_places = 4;  // per synapse
-    auto layout = lay_out_by_source(sort_by_target(s, target.cells), source, target, max_places);
+    constexpr double max_plastic_places = 4;  // per synapse
+    auto layout = lay_out_by_source(sort_by_target(s, target.cells), source, target, max_plastic_places);
     if (!layout) return nullptr;
     auto out = std::make_unique<PlasticBySource>(std::move(*layout), type, reads_states);
     if (!out->fill(s)) return nullptr;

@@ -321,7 +321,7 @@ class Compiler {
     void add_initial(const model::Group& g, const Layout::Group& about, int number) {
         for (const auto& i : g.neuron.initial) {
             const int state = state_named(about.type, i.state);
-            initial_.push_back([this, &i, &g, &about, number, state] {
+            initial_.emplace_back([this, &i, &g, &about, number, state] {
                 plan_->first_numbers.push_back(
                     {.group = number,
                      .state = state,

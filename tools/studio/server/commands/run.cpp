@@ -94,7 +94,7 @@ json stop_run(Session& s, const Request&) {
     const json before = s.system_message();
     s.reset();
     // A module that was switched on or off says now what cells stand for.
-    if (json now = s.system_message(); now != before) s.pages.broadcast(std::move(now));
+    if (const json now = s.system_message(); now != before) s.pages.broadcast(now);
     return json::object();
 }
 
