@@ -1,6 +1,6 @@
 #include "tools/studio/server/undo_steps.h"
 
-#include <catch2/catch.hpp>
+#include "tests/support/catch.h"
 
 namespace forage::studio {
 namespace {
