@@ -58,8 +58,8 @@ export function sizesOf(i: WorldItem): string[] {
 
 type Place = { x: number; y: number };
 
-/** The size that an item gets when a handle is dragged from one place of the world to another; its middle stays. `along`: which of a box's sizes change. */
-export function resized(i: WorldItem, from: Place, to: Place, along: [boolean, boolean], step: number): number[] {
+/** An item of which a handle is dragged from one place of the world to another: the opposite side of a box stays where it is, as does the middle of a circle. `along`: which of a box's sizes change. */
+export function resized(i: WorldItem, from: Place, to: Place, along: [boolean, boolean], step: number): WorldItem {
   const part = i.parts[0]!, [c, s] = [Math.cos(i.yaw), Math.sin(i.yaw)], yaw = i.yaw + part.yaw;
   /** A place along the sides of the part. */
   const local = (p: Place) => {
@@ -68,8 +68,11 @@ export function resized(i: WorldItem, from: Place, to: Place, along: [boolean, b
   };
   const [x0, y0] = local(from), [x1, y1] = local(to);
   const grown = (size: number, by: number) => Math.max(step, snapped(size + by, step));
-  if (part.size.length < 2) return [grown(part.size[0]!, Math.hypot(x1, y1) - Math.hypot(x0, y0))];
-  return [Math.abs(x1) - Math.abs(x0), Math.abs(y1) - Math.abs(y0)].map((by, k) => (along[k] ? grown(part.size[k]!, 2 * by) : part.size[k]!));
+  const of = (size: number[]) => ({ ...i, parts: [{ ...part, size }] });
+  if (part.size.length < 2) return of([grown(part.size[0]!, Math.hypot(x1, y1) - Math.hypot(x0, y0))]);
+  const size = [x1 - x0, y1 - y0].map((by, k) => (along[k] ? grown(part.size[k]!, by) : part.size[k]!));
+  const [dx, dy] = size.map((now, k) => (now - part.size[k]!) / 2) as [number, number];
+  return { ...of(size), x: i.x + Math.cos(yaw) * dx - Math.sin(yaw) * dy, y: i.y + Math.sin(yaw) * dx + Math.cos(yaw) * dy };
 }
 
 export const rounded = (v: number): number => Math.round(v * 100) / 100;

@@ -86,6 +86,20 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await page.keyboard.press('Control+z');
   await becomes('x, m', String(exact));
 
+  step('a wall is drawn from one end to the other');
+  await world.getByRole('button', { name: 'wall', exact: true }).click();
+  await page.mouse.move(...(await at(0.3, 0.7)));
+  await page.mouse.down();
+  await page.mouse.move(...(await at(0.35, 0.8)), { steps: 3 });
+  await page.mouse.move(...(await at(0.3, 0.9)), { steps: 3 });
+  await page.mouse.up();
+  await map.getByRole('button').nth(items + 1).waitFor();
+  await becomes('Heading, °', '-90');
+  assert.equal(await page.evaluate(() => getSelection().toString()), '');
+  await page.keyboard.press('Control+z');
+  await until(page, 'it is gone', (n) => document.querySelectorAll('[aria-label="Map of the world"] [role=button]').length === n, items + 1);
+  await map.locator(`[data-id="${name}"]`).focus();
+
   step('keys resize it, too');
   await map.locator('.chosen').focus();
   await page.keyboard.press('Control+ArrowRight');

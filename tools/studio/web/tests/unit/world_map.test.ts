@@ -26,16 +26,17 @@ describe('the map of a world', () => {
     expect(snapped(1.234, grid)).toBe(1.2);
     expect(snapped(1, turn)).toBeCloseTo(Math.PI / 3);
   });
-  it('resizes what has one part, along its own sides, and its middle stays', () => {
+  it('resizes what has one part, along its own sides; the opposite side of a box and the middle of a circle stay', () => {
+    const sizes = (i: WorldItem) => [...i.parts[0]!.size, snapped(i.x, 0.001), snapped(i.y, 0.001)];
     const property = (name: string) => ({ name, label: name, kind: 'number', value: 1, low: null, high: null, choices: [] }) as WorldItem['properties'][number];
     const wall = { ...item('wall', 1, 2, [part(0, 0, [2, 0.2])]), yaw: Math.PI / 2, properties: [property('width'), property('depth')] };
     expect(sizesOf(wall)).toEqual(['width', 'depth']);
     expect(sizesOf({ ...wall, parts: [...wall.parts, part(1, 0, [1])] })).toEqual([]);
-    expect(resized(wall, { x: 1, y: 3.1 }, { x: 1.04, y: 3.62 }, [true, false], 0.1)).toEqual([3, 0.2]);
-    expect(resized(wall, { x: 0.8, y: 3.1 }, { x: 0.6, y: 2 }, [true, true], 0.1)).toEqual([0.1, 0.6]);
+    expect(sizes(resized(wall, { x: 1, y: 3.1 }, { x: 1.04, y: 3.62 }, [true, false], 0.1))).toEqual([2.5, 0.2, 1, 2.25]);
+    expect(sizes(resized(wall, { x: 0.8, y: 3.1 }, { x: 0.6, y: 2 }, [true, true], 0.1))).toEqual([0.9, 0.4, 0.9, 1.45]);
     const pillar = { ...item('pillar', 0, 0, [part(0, 0, [0.2])]), properties: [property('radius')] };
     expect(sizesOf(pillar)).toEqual(['radius']);
-    expect(resized(pillar, { x: 0.3, y: 0 }, { x: 0.3, y: 0.52 }, [true, false], 0.1)).toEqual([0.5]);
+    expect(sizes(resized(pillar, { x: 0.3, y: 0 }, { x: 0.3, y: 0.52 }, [true, false], 0.1))).toEqual([0.5, 0, 0]);
   });
   it('draws boxes as rectangles, and others as circles', () => {
     expect(corners(part(1, 1, [2, 1]))).toBe('-1,-0.5 1,-0.5 1,0.5 -1,0.5');
