@@ -123,6 +123,7 @@ void Session::open_document(const RunInput& input) {
     note_opening();
     ++edited.generation;  // what pages write of the system before does not get into this one
     live.waiting_sampler.reset();
+    pages.panels = nullptr;  // those of the system before
     if (recovery.files) restart_autosave();
     // The page arranges its panels when it has the system, and an arena is one of them.
     pages.broadcast(world_message()), pages.broadcast(system_message()), broadcast_document();

@@ -1,4 +1,6 @@
 // The question before changes would be lost, and its answer.
+import { tick } from 'svelte';
+
 interface Question {
   title: string;
   text: string;
@@ -25,6 +27,7 @@ class Leaving {
   async act(): Promise<void> {
     const save = this.question?.save;
     this.question = null;
+    await tick(); // a dialog that asks where to save takes the focus that this one gives back
     this.answered(save ? await save() : true);
   }
 }

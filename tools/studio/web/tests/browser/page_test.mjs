@@ -144,6 +144,14 @@ export default async function({ start, open, faults, step }) {
   await page.getByText('Bug/Motor driven by hand').waitFor();
   await page.getByRole('button', { name: 'Pause', exact: true }).click();
 
+  step('panels of groups that the system does not have are left out of a kept arrangement');
+  await page.evaluate(() => {
+    for (const key of Object.keys(localStorage).filter((k) => k.startsWith('layout'))) localStorage[key] = localStorage[key].replaceAll('Bug/Light', 'Bug/Gone');
+  });
+  await page.reload();
+  await page.locator('.uplot canvas').first().waitFor();
+  assert.ok(!(await page.locator('.dv-tab').allTextContents()).some((t) => t.includes('Bug/Gone')));
+
   step('stop: back to cycle 0');
   await page.getByRole('button', { name: 'Stop', exact: true }).click();
   await until(page, 'cycle 0', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '0');
@@ -209,6 +217,7 @@ export default async function({ start, open, faults, step }) {
     await page.getByRole('dialog', { name: 'Changes' }).getByRole('button', { name: 'Save' }).click();
   };
   const saveAs = async (name) => {
+    await until(page, 'the name has the keys', () => document.activeElement?.matches('dialog[aria-label="Save as"] input'));
     await page.getByRole('dialog', { name: 'Save as' }).getByLabel('Name').fill(name);
     await page.keyboard.press('Enter');
     await page.getByText(`Saved as ${name}.`).waitFor();
