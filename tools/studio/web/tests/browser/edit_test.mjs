@@ -63,6 +63,16 @@ export default async function({ folder, context, start, open, faults, step }) {
   assert.equal(differing.length, 1);
   assert.match(saved[differing[0]], /<DiagramIcon x="\d+" y="\d+" width="\d+" height="50"\/>/);
 
+  step('a double click on its name writes it, as the finder does');
+  for (const begin of [() => node('selection.ur').locator('.name').dblclick(), () => find(page, 'rename ur')]) {
+    await begin();
+    await node('selection.ur').getByRole('textbox', { name: 'Name' }).waitFor();
+    await page.keyboard.type('Reflex');
+    await page.keyboard.press('Escape');
+    await node('selection.ur').getByText('UR', { exact: true }).waitFor();
+  }
+  await dirty(false);
+
   step('a vertex is added by Ctrl and click, dragged, and deleted by a key');
   const c = 'c.approach-ur';
   await page.keyboard.down('Control');
