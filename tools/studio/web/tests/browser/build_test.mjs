@@ -149,7 +149,7 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await field('Cells').selectOption('nearest');
   await inspector.getByText('9 synapses', { exact: true }).waitFor();
   await field('Cells').selectOption('chosen cells');
-  await inspector.getByRole('button', { name: 'Clear' }).click();
+  await inspector.getByRole('button', { name: 'Remove all tuples' }).click();
   for (const [s, t] of [[3, 1], [4, 5], [5, 9]]) {
     await inspector.getByRole('checkbox', { name: `Source cell (${s}, 1)` }).click();
     await inspector.getByRole('checkbox', { name: `Target cell (${t}, 1)` }).click();
