@@ -61,6 +61,8 @@ extern "C" {
 EMSCRIPTEN_KEEPALIVE const char* forage_open(const char* system, const char* world) {
     static std::string wrong;
     setenv("FONTCONFIG_FILE", "/forage/fonts/fonts.conf", 1);
+    // Worlds of the user find the models that come with Forage: there is no program beside which they are.
+    setenv("FORAGE_MODEL_PATH", "/forage/systems/worlds/models", 1);
     try {
         RunInput input;
         input.system = system, input.world = world;
