@@ -8,7 +8,9 @@ export interface Engine {
     chdir(path: string): void;
     readFile(path: string): Uint8Array;
     writeFile(path: string, content: string | Uint8Array): void;
-    analyzePath(path: string): { exists: boolean };
+    analyzePath(path: string): { exists: boolean; object: unknown };
+    rename(from: string, to: string): void;
+    hashRemoveNode(file: unknown): void;
   };
   IDBFS: unknown;
 }
@@ -70,5 +72,17 @@ async function load(): Promise<Engine> {
       return {};
     },
   });
-  return (await Promise.all([created, first]))[0];
+  const [engine] = await Promise.all([created, first]);
+  forgetReplaced(engine.FS);
+  return engine;
+}
+
+/** Emscripten keeps a file that another one replaces, for ever: it is found again when the other one is deleted. */
+function forgetReplaced(files: Engine['FS']): void {
+  const { rename } = files;
+  files.rename = (from, to) => {
+    const replaced = files.analyzePath(to).object;
+    rename(from, to);
+    if (replaced && replaced !== files.analyzePath(to).object) files.hashRemoveNode(replaced);
+  };
 }
