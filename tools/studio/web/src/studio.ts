@@ -1,5 +1,5 @@
 // Connects the server with the stores. Everything that changes a run goes through `command`.
-import { inBrowser, workerSocket } from './browser/socket';
+import { inBrowser, noteOpened, workerSocket } from './browser/socket';
 import { CommandError, Connection, type Arguments, type CommandName, type Result, type Socket } from './connection';
 import { protocolVersion, type ServerMessage, type SystemMessage } from './protocol/messages';
 import type { Frame } from './protocol/frame';
@@ -109,6 +109,7 @@ function receive(message: ServerMessage): void {
     case 'document':
       actions.settle('removal');
       editing.message = message;
+      if (inBrowser) noteOpened(message.file, model.world?.file ?? '');
       if (!editing.types) void request('types').then((t) => (editing.types = t), () => {});
       break;
     case 'world_document':
@@ -116,6 +117,7 @@ function receive(message: ServerMessage): void {
       break;
     case 'world':
       model.world = message.file === null ? null : message;
+      if (inBrowser) noteOpened(editing.file, model.world?.file ?? '');
       void loadWorldFile();
       break;
     case 'status':

@@ -2,9 +2,12 @@
 import type { Socket } from '../connection';
 import { linkedIn } from './link';
 
+interface Opening {
+  open: { system: string; world: string; files: Record<string, string>; /** Whether the robot is to run before all is loaded. */ first: boolean };
+}
 /** What the page asks of the worker, beside messages for the session. */
 export type Wish =
-  | { open: { system: string; world: string; files: Record<string, string>; /** Whether the robot is to run before all is loaded. */ first: boolean } }
+  | Opening
   | { hidden: boolean }
   | { read: string }
   | { write: string; bytes: ArrayBuffer };
@@ -22,7 +25,7 @@ const waiting: { resolve(content: Uint8Array | string): void; reject(error: Erro
 const hash = (text: string): string => [...text].reduce((h, c) => (Math.imul(h, 31) + c.charCodeAt(0)) >>> 0, 7).toString(16);
 
 /** The system and the world that the address of the page names, or that are in its link. */
-async function asked(): Promise<Wish> {
+async function asked(): Promise<Opening> {
   const linked = await linkedIn(location.hash);
   if (linked) {
     // Among what comes with Forage, which Save leaves as it is. Links to different systems do not meet there.
@@ -32,6 +35,19 @@ async function asked(): Promise<Wish> {
   }
   const given = new URLSearchParams(location.search), system = given.get('system') ?? 'dac_foraging.iqr', world = given.get('world') ?? (given.has('system') ? '' : 'basic_arena.world');
   return { open: { system: shipped + system, world: world && `${shipped}worlds/${world}`, files: {}, first: !given.has('system') && !navigator.serviceWorker?.controller } };
+}
+
+const lastOpened = 'forage-opened';
+/** Notes which files are open, for when this page is loaded again; a system without a file is not found then. */
+export function noteOpened(system: string, world: string): void {
+  if (system) sessionStorage.setItem(lastOpened, JSON.stringify({ address: location.href, system, world }));
+  else sessionStorage.removeItem(lastOpened);
+}
+
+/** What the page opens: what its address names, or what was open there before it was loaded again. */
+async function wished(): Promise<Wish> {
+  const { open } = await asked(), { address, ...before } = JSON.parse(sessionStorage.getItem(lastOpened) ?? '{}') as { address?: string; system?: string; world?: string };
+  return { open: address === location.href ? { ...open, ...before, first: false } : open };
 }
 
 /** A socket to a worker with a session. `note` tells the user something. */
@@ -52,7 +68,13 @@ export function workerSocket(note: (text: string) => void): Socket {
     },
     close: () => worker.terminate(),
   };
-  const fail = (reason: string) => socket.onclose?.({ code: 1008, reason });
+  const fail = (reason: string) => {
+    // What was open before may be gone, or be kept for another tab.
+    const again = state === WebSocket.CONNECTING && sessionStorage.getItem(lastOpened) !== null;
+    sessionStorage.removeItem(lastOpened);
+    if (again) location.reload();
+    else socket.onclose?.({ code: 1008, reason });
+  };
   worker.onmessage = ({ data }: MessageEvent<string | ArrayBuffer | Answer>) => {
     if (typeof data === 'object' && 'failed' in data) return fail(data.failed);
     if (typeof data === 'object' && 'note' in data) return note(data.note);
@@ -70,7 +92,7 @@ export function workerSocket(note: (text: string) => void): Socket {
   const hide = () => worker.postMessage({ hidden: document.hidden });
   document.addEventListener('visibilitychange', hide);
   hide();
-  asked().then((wish) => worker.postMessage(wish), (error: Error) => fail(error.message));
+  wished().then((wish) => worker.postMessage(wish), (error: Error) => fail(error.message));
   return socket;
 }
 
