@@ -85,15 +85,23 @@ for (let n = 0; n < runs; n++) {
     `DAC foraging at Max: ${rate.toFixed(0)} cycles/s, ${times.toFixed(0)} times real time (${(rate / node).toFixed(2)} of the ${node.toFixed(0)} in Node), ${frames.toFixed(0)} frames/s, ${(100 * share).toFixed(0)} % for the page`,
   );
 }
-/** The memory of the page with its worker, and JavaScript's part of it, MB. */
+// The DevTools of the page, and through them those of its worker.
+const tools = await context.newCDPSession(page), ofBrowser = await browser.newBrowserCDPSession(), answers = [];
+let worker;
+tools.on('Target.attachedToTarget', ({ sessionId, targetInfo: { type } }) => type === 'worker' && (worker = sessionId));
+tools.on('Target.receivedMessageFromTarget', ({ message }) => answers[JSON.parse(message).id]?.(JSON.parse(message).result));
+await tools.send('Target.setAutoAttach', { autoAttach: true, waitForDebuggerOnStart: false, flatten: false });
+const ofWorker = (method) => new Promise((answered) => tools.send('Target.sendMessageToTarget', { sessionId: worker, message: JSON.stringify({ id: answers.push(answered) - 1, method }) }));
+/** The memory of the page with its worker, before and after garbage is collected, and what JavaScript holds in both. */
 async function memory() {
-  const ofPage = await context.newCDPSession(page), ofBrowser = await browser.newBrowserCDPSession();
-  await ofPage.send('HeapProfiler.collectGarbage');
-  const { usedSize } = await ofPage.send('Runtime.getHeapUsage'), { processInfo } = await ofBrowser.send('SystemInfo.getProcessInfo');
-  const resident = processInfo.filter((p) => p.type === 'renderer').map(({ id }) => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${id}/status`, 'utf8'))[1]) / 1e3);
-  await ofPage.detach();
-  await ofBrowser.detach();
-  return `${Math.max(...resident).toFixed(0)} MB, of JavaScript ${(usedSize / 1e6).toFixed(1)} MB`;
+  const resident = async () =>
+    Math.max(...(await ofBrowser.send('SystemInfo.getProcessInfo')).processInfo.filter((p) => p.type === 'renderer').map(({ id }) => Number(/VmRSS:\s+(\d+)/.exec(readFileSync(`/proc/${id}/status`, 'utf8'))[1]) / 1e3));
+  const before = await resident();
+  await Promise.all([tools.send('HeapProfiler.collectGarbage'), ofWorker('HeapProfiler.collectGarbage')]);
+  await ofBrowser.send('Memory.simulatePressureNotification', { level: 'critical' }).catch(() => {});
+  await seconds(1);
+  const held = (await Promise.all([tools.send('Runtime.getHeapUsage'), ofWorker('Runtime.getHeapUsage')])).map((h) => (h.usedSize + h.embedderHeapUsedSize + h.backingStorageSize) / 1e6);
+  return `${before.toFixed(0)} MB, without garbage ${(await resident()).toFixed(0)} MB; JavaScript holds ${held[0].toFixed(1)} MB in the page, ${held[1].toFixed(1)} MB in the worker`;
 }
 for (let minute = 0; minute <= Number(minutes); minute++) {
   if (minute) await seconds(60);
