@@ -52,14 +52,40 @@ const rested = await cycle(page);
 await hide(false);
 await eventually('the run continues', async () => (await cycle(page)) > rested);
 
-step('a system that is changed is saved');
+step('what a closed tab has left is continued in the next one');
 await page.getByRole('button', { name: 'Pause', exact: true }).click();
+await page.getByRole('button', { name: 'Run', exact: true }).waitFor();
+const since = Date.now();
+await page.locator('body').press('.');
+await eventually('the session is kept', () =>
+  page.evaluate((time) =>
+    new Promise((done) => {
+      indexedDB.open('/home/web_user').onsuccess = ({ target: { result: all } }) => {
+        all.transaction('FILE_DATA').objectStore('FILE_DATA').openCursor().onsuccess = ({ target: { result: file } }) => {
+          const found = file?.key.endsWith('/running.forage') && file.value.timestamp >= time;
+          if (file && !found) return file.continue();
+          all.close();
+          done(found === true);
+        };
+      };
+    }), since));
+await page.close();
+page = await open('');
+await page.getByRole('button', { name: 'Resume it' }).click();
+await eventually('its cycle', async () => (await cycle(page)) > rested);
+
+step('a system that is changed is saved');
 await page.getByLabel('Author', { exact: true }).fill('A teacher');
 await page.getByLabel('Author', { exact: true }).press('Enter');
 await menu(page, 'Save as…');
 await page.getByRole('dialog').getByLabel('Name', { exact: true }).fill('mine.iqr');
 await page.getByRole('dialog').getByRole('button', { name: 'Save', exact: true }).click();
 await page.getByText('Saved as mine.iqr.').waitFor();
+
+step('a page that is loaded again has opened the same file');
+await page.reload();
+await eventually('what was changed', async () => (await page.getByLabel('Author', { exact: true }).inputValue()) === 'A teacher');
+assert.match(await page.title(), /mine\.iqr/);
 
 step('a link opens the same system in another tab');
 await menu(page, 'Copy a link');
