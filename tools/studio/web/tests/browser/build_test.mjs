@@ -22,7 +22,7 @@ const selection = {
   'Const Speed': { at: [400, 520], size: [1, 1], type: 'neuronRandomSpike', set: { probability: 1, spkAmpl: 1 } },
 };
 
-export default async function({ forage, folder, start, open, faults, step }) {
+export default async function({ forage, folder, start, open, onDisk, faults, step }) {
   const page = await open(await start(['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']).address);
   const run = (...args) => execFileSync(forage, args, { cwd: folder, encoding: 'utf8' });
   const diagram = page.getByRole('group', { name: 'Diagram' });
@@ -219,6 +219,7 @@ export default async function({ forage, folder, start, open, faults, step }) {
   step('the command line checks it, describes the same connections, and runs it');
   const described = (file) => JSON.parse(run('describe', file, '--format', 'json'));
   const mine = 'mine.iqr';
+  await onDisk(page, mine);
   run('check', mine, '--world', 'systems/worlds/basic_arena.world');
   const [built, shipped] = [mine, 'systems/reactive_foraging.iqr'].map(described);
   // The shipped file writes out the weight, which is the default.
@@ -280,6 +281,7 @@ export default async function({ forage, folder, start, open, faults, step }) {
   await save.getByLabel('Name').fill('walls.iqr');
   await save.getByLabel('Name').press('Enter');
   await page.getByText('Saved as walls.iqr.').waitFor();
+  await onDisk(page, 'walls.iqr');
   run('run', 'walls.iqr', '--world', 'systems/worlds/open_arena.world', '--seconds', '60', '-o', 'walls');
   const places = readFileSync(join(folder, 'walls/trajectory.csv'), 'utf8').trim().split('\n').slice(1).map((line) => line.split(',').slice(2, 4).map(Number));
   const last = places.slice(-Math.floor(places.length / 3));

@@ -1,10 +1,9 @@
 // Panels are moved, stacked, floated, resized and closed with the keyboard alone, in Chromium against the real program.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
-import { join } from 'node:path';
 import { answered, find, picture, sent, until } from './support.mjs';
 
-export default async function({ folder, start, open, faults, step }) {
+export default async function({ start, open, onDisk, faults, step }) {
   const page = await open(await start().address, { width: 1600, height: 1000 });
   await page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
   const press = async (...keys) => {
@@ -285,13 +284,13 @@ export default async function({ folder, start, open, faults, step }) {
   assert.equal(await arrangement(), left);
 
   step('a layout that is there already is replaced only after a question');
-  const file = join(folder, 'systems/mine.layout.json');
+  const kept = async () => readFileSync(await onDisk(page, 'systems/mine.layout.json'), 'utf8');
   await page.getByRole('button', { name: 'Layouts of the panels' }).press('Enter');
   await page.getByLabel('Name of the layout').focus();
   await page.keyboard.type('mine');
   await press('Enter');
   await page.getByText('The layout mine is kept beside the system.').first().waitFor();
-  const first = readFileSync(file, 'utf8');
+  const first = await kept();
   await find(page, 'panel: float');
   await until(page, 'a floating window, with the focus', () => document.querySelector('.dv-resize-container')?.contains(document.activeElement));
   await page.getByRole('button', { name: 'Layouts of the panels' }).press('Enter');
@@ -299,10 +298,10 @@ export default async function({ folder, start, open, faults, step }) {
   await press('Enter');
   await page.getByText('A layout mine exists already.').waitFor();
   await picture(page, 'replace');
-  assert.equal(readFileSync(file, 'utf8'), first);
+  assert.equal(await kept(), first);
   await press('Tab', 'Tab', 'Enter');
   await until(page, 'the menu is closed', () => !document.querySelector('.popover .menu'));
-  assert.match(readFileSync(file, 'utf8'), /floatingGroups/);
+  assert.match(await kept(), /floatingGroups/);
   await find(page, 'panel: dock');
   await page.getByRole('button', { name: 'Layouts of the panels' }).press('Enter');
   await page.getByRole('button', { name: 'mine', exact: true }).press('Enter');

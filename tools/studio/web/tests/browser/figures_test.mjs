@@ -5,7 +5,7 @@ import { readFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { accessible, find, picture, until } from './support.mjs';
 
-export default async function({ forage, folder, start, open, step }) {
+export default async function({ forage, site, folder, start, open, step }) {
   const page = await open(await start().address);
   const dialog = page.getByRole('dialog', { name: 'Export figure' });
   const plot = (name) => page.getByRole('group', { name, exact: true });
@@ -13,8 +13,9 @@ export default async function({ forage, folder, start, open, step }) {
   const cycle = () => page.evaluate(() => Number(document.querySelector('[aria-label="Moment of the run"]').value));
   /** The content of the exported file, and of the one that the commands make. */
   async function both(act) {
-    const commands = await dialog.getByRole('region', { name: 'Commands' }).innerText();
+    const commands = (await dialog.getByRole('region', { name: 'Commands' }).innerText()).replaceAll('/home/web_user/', ''); // where a browser keeps what is in `folder` here
     const [download] = await Promise.all([page.waitForEvent('download'), act()]);
+    await page.getByText(`${download.suggestedFilename()} is in the downloads of the browser.`).waitFor();
     execFileSync('bash', ['-c', `set -e; forage() { "${forage}" "$@" > log; }\n${commands}`], { cwd: folder, stdio: 'pipe' });
     return [readFileSync(await download.path()), readFileSync(join(folder, 'forage-out', download.suggestedFilename())), commands];
   }
@@ -47,7 +48,6 @@ export default async function({ forage, folder, start, open, step }) {
   const [space, ofCommands] = await both(() => dialog.getByRole('button', { name: 'Export' }).press('Enter'));
   assert.ok(space.equals(ofCommands) && space.includes('<svg'));
   await dialog.waitFor({ state: 'hidden' });
-  await page.getByText(/^space_Bug_Motor.*\.svg is in the downloads of the browser\.$/).waitFor();
 
   step('a figure over time begins where its panel does, or at another cycle; by keyboard');
   await page.getByRole('navigation').getByText('Light', { exact: true }).click();
@@ -63,7 +63,8 @@ export default async function({ forage, folder, start, open, step }) {
   await from.press('Tab');
   await until(page, 'the commands', () => document.querySelector('[aria-label=Commands]')?.textContent.includes('--record-from 100'));
   const [raster, again, commands] = await both(() => dialog.getByRole('button', { name: 'Export' }).click());
-  assert.ok(raster.equals(again) && raster.subarray(0, 4).toString() === '%PDF', commands);
+  // A PDF holds its fonts: those of the site may be another version than those of this machine.
+  assert.ok((site || raster.equals(again)) && raster.subarray(0, 4).toString() === '%PDF', commands);
 
   step("the arena has the robot's path, the trials their curve, the diagram itself");
   for (const [name, shown] of [['Arena', 'trajectory'], ['Diagram', 'diagram']]) {

@@ -6,7 +6,8 @@ import { eventually, find, picture, until } from './support.mjs';
 
 const cycle = (page) => page.getByLabel('Moment of the run').inputValue().then(Number);
 
-export default async function({ folder, start, open, step }) {
+export default async function({ site, folder, start, open, step }) {
+  if (site) return step('without_server.mjs has what lasts there');
   step('a studio that is killed: the next one offers to continue, with the panels and the comparison as they were');
   const first = start();
   const page = await open(await first.address);

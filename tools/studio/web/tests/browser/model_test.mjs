@@ -35,9 +35,9 @@ const text = `<System id="s" name="Words" cylesPerSecond="100">
 </System>
 `;
 
-export default async function({ folder, start, open, faults, step }) {
-  const file = join(folder, 'words.iqr'), numbers = (rows, columns, value) => Array.from({ length: rows }, (_, r) => Array.from({ length: columns }, (_, c) => value(r, c)).join()).join('\n');
-  writeFileSync(file, text);
+export default async function({ folder, start, open, onDisk, faults, step }) {
+  const numbers = (rows, columns, value) => Array.from({ length: rows }, (_, r) => Array.from({ length: columns }, (_, c) => value(r, c)).join()).join('\n');
+  writeFileSync(join(folder, 'words.iqr'), text);
   writeFileSync(join(folder, 'gains.csv'), numbers(12, 1, (r) => (r - 4) / 4));
   writeFileSync(join(folder, 'w.csv'), numbers(1000, 1000, (r, c) => (r < 500 && c >= 500 ? 'nan' : (Math.cos((r - c) / 80) / 1000).toFixed(5))));
   writeFileSync(join(folder, 'fades.csv'), numbers(12, 1000, (r, c) => (r === c % 12 ? 0.5 : 'nan')));
@@ -155,7 +155,7 @@ export default async function({ folder, start, open, faults, step }) {
   await page.keyboard.press('Control+Home');
   await wrong.click({ delay: 50 });
   await there();
-  assert.ok(readFileSync(file, 'utf8') === text, 'nothing is saved');
+  assert.ok(readFileSync(await onDisk(page, 'words.iqr'), 'utf8') === text, 'nothing is saved');
 
   assert.deepEqual(faults, []);
 }

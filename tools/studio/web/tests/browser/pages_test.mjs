@@ -4,7 +4,8 @@ import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
 import { answered, until } from './support.mjs';
 
-export default async function({ folder, start, open, faults, step }) {
+export default async function({ site, folder, start, open, faults, step }) {
+  if (site) return step('each page has a session of its own there');
   const address = await start(['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']).address;
   const show = async (url) => {
     const page = await open(url);

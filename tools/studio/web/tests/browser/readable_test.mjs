@@ -1,6 +1,5 @@
 // Diagrams that can be read: the systems that come with Forage, at two sizes of the window.
 import assert from 'node:assert/strict';
-import { join } from 'node:path';
 import { eventually, find, picture, until } from './support.mjs';
 
 const systems = [['reactive_foraging', 'basic_arena'], ['dac_foraging', 'basic_arena'], ['learners_foraging', 'ambiguous_arena'], ['allostasis', 'desert'], ['sec_maze', 'double_t_maze'], ['q_maze', 'double_t_maze']];
@@ -40,7 +39,7 @@ async function remaining(page, boxes) {
   return found;
 }
 
-export default async function({ folder, start, open, faults: thrown, step }) {
+export default async function({ site, start, open, faults: thrown, step }) {
   for (const [system, world] of process.env.FORAGE_WHOLE ? systems : systems.slice(0, 2)) {
     step(`${system}: names of 11 pixels at least, lines around boxes, each page whole at 1400 and 1024`);
     const page = await open(await start([`systems/${system}.iqr`, '--world', `systems/worlds/${world}.world`]).address);
@@ -95,7 +94,7 @@ export default async function({ folder, start, open, faults: thrown, step }) {
   await fingers('touchEnd', 0);
   await until(page, 'a larger page', (z) => Number(/scale\(([\d.]+)\)/.exec(document.querySelector('.svelte-flow__viewport').style.transform)[1]) > 1.5 * z, whole);
   await page.keyboard.press('Control+o');
-  await page.getByRole('dialog').getByLabel('Name', { exact: true }).fill(join(folder, 'systems/sec_maze.iqr'));
+  await page.getByRole('dialog').getByLabel('Name', { exact: true }).fill(site ? '/forage/systems/sec_maze.iqr' : 'sec_maze.iqr');
   await page.keyboard.press('Enter');
   await page.getByRole('navigation').getByText('Entropy').waitFor();
   await picture(page, 'other-system');

@@ -1,5 +1,5 @@
 // The tests of the page in Chromium against the real program, topic by topic: node run.mjs FORAGE SOURCES [TOPIC...].
-// Those that read no files also run against the site of tools/web: its folder takes the place of the program.
+// They also run against the site of tools/web: its folder takes the place of the program. The browser keeps the files there.
 // With FORAGE_PICTURES=FOLDER, pictures of what they see are left there.
 import { readdirSync } from 'node:fs';
 import { resolve } from 'node:path';

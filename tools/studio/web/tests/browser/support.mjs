@@ -1,11 +1,10 @@
 // A studio with pages in Chromium, for tests and pictures. Exit code 77: skipped, as there is no browser.
 import { spawn } from 'node:child_process';
-import { cpSync, createReadStream, existsSync, mkdtempSync, readFileSync, rmSync, statSync } from 'node:fs';
+import { cpSync, createReadStream, existsSync, mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync } from 'node:fs';
 import { createServer } from 'node:http';
 import { createRequire } from 'node:module';
 import { tmpdir } from 'node:os';
 import { extname, join, normalize } from 'node:path';
-import { deflateRawSync } from 'node:zlib';
 import assert from 'node:assert/strict';
 
 // What waits is patient: tests run on machines that do much else.
@@ -46,12 +45,17 @@ export async function launchNamed(name) {
   return name === 'firefox' ? firefox.launch({ channel: 'moz-firefox', executablePath: '/usr/bin/firefox-esr' }) : launch();
 }
 
-/** The studio without a server, called as `forage studio` would be: with what comes with Forage, or with a system in a link. */
-async function startInBrowser(site, folder, [system, , world = ''] = usual) {
-  const { address } = await serve(site), name = (path) => /^systems\/(?:worlds\/)?(.*)/.exec(path)?.[1] ?? '';
-  if (name(system)) return `${address}?system=${name(system)}&world=${name(world)}`;
-  const linked = { name: system.replace('.iqr', ''), system: readFileSync(join(folder, system), 'utf8'), world: '' };
-  return `${address}#system=${deflateRawSync(JSON.stringify(linked)).toString('base64url')}`;
+/** Where the studio without a server has the files of its user. */
+const home = '/home/web_user';
+
+/** The studio without a server, where the browser keeps the files of `folder`, with the first system of `args` and its world. */
+async function startInBrowser(site, folder, context, args = usual) {
+  const { address } = await serve(site), world = args.includes('--world') ? args[args.indexOf('--world') + 1] : '';
+  const texts = ['', 'systems', 'systems/worlds'].flatMap((inside) => readdirSync(join(folder, inside), { withFileTypes: true }).flatMap((f) => (f.isFile() ? [join(inside, f.name)] : [])));
+  const files = Object.fromEntries(texts.map((f) => [`${home}/${f}`, readFileSync(join(folder, f), 'utf8')]));
+  // Each studio has an address of its own, so they do not share what the browser keeps.
+  await context.addInitScript(([studio, opened]) => location.href.startsWith(studio) && (window.opened = opened), [address, { system: `${home}/${args[0]}`, world: world && `${home}/${world}`, files }]);
+  return `${address}?system=${args[0].replace('systems/', '')}&world=${world.replace('systems/worlds/', '')}`; // for a page that keeps nothing
 }
 
 /** Starts `forage studio` in `folder`, which also has its state. The address is a promise. */
@@ -141,6 +145,10 @@ function watchSocket() {
     }
     postMessage(data) {
       if (typeof data === 'string') window.sent.push(JSON.parse(data).command);
+      if (data.open && window.opened && !sessionStorage.opened) { // a page that is loaded again knows it
+        data = { open: { ...data.open, ...window.opened } };
+        sessionStorage.opened = true;
+      }
       super.postMessage(data);
     }
     send(data) {
@@ -187,7 +195,7 @@ export async function inBrowser(browser, forage, sources, test) {
   });
   const site = statSync(forage).isDirectory();
   const start = (args) => {
-    if (site) return { address: startInBrowser(forage, folder, args) };
+    if (site) return { address: startInBrowser(forage, folder, context, args) };
     studios.push(startStudio(forage, folder, args));
     return studios[studios.length - 1];
   };
@@ -201,8 +209,27 @@ export async function inBrowser(browser, forage, sources, test) {
     await page.goto(addresses.get(origin));
     return page;
   };
+  /** The path of a file that the studio has written, named as from `folder`. */
+  const onDisk = async (page, name) => {
+    const path = join(folder, name);
+    if (!site) return path;
+    const text = await page.evaluate((file) =>
+      new Promise((done, failed) => {
+        const listen = ({ data }) => {
+          if (data.content) done(new TextDecoder().decode(data.content));
+          else if (data.refused) failed(new Error(data.refused));
+          else return;
+          window.socket.removeEventListener('message', listen);
+        };
+        window.socket.addEventListener('message', listen);
+        window.socket.postMessage({ read: file });
+      }), `${home}/${name}`);
+    writeFileSync(path, text);
+    return path;
+  };
   try {
-    await test({ forage, site, folder, context, faults, start, open });
+    // Beside the site is the command line, for Node.
+    await test({ forage: site ? join(forage, '../forage') : forage, site, folder, context, faults, start, open, onDisk });
   } catch (error) {
     for (const [i, page] of context.pages().entries()) await picture(page, `failed-${i}`);
     throw error;

@@ -1,10 +1,9 @@
 // Running and touching: driving a group, chosen parameters and their files, seed, speed, undo of moves, worlds, the end.
 import assert from 'node:assert/strict';
 import { existsSync, readFileSync } from 'node:fs';
-import { join } from 'node:path';
 import { find, picture, until } from './support.mjs';
 
-export default async function({ folder, start, open, faults, step }) {
+export default async function({ site, start, open, onDisk, faults, step }) {
   const studio = start(['systems/reactive_foraging.iqr', '--world', 'systems/worlds/basic_arena.world']);
   const page = await open(await studio.address);
   const tree = page.getByRole('navigation'), inspector = page.getByRole('region', { name: 'Inspector' }), dialog = page.locator('dialog[open]');
@@ -35,15 +34,15 @@ export default async function({ folder, start, open, faults, step }) {
   await dialog.getByLabel('Name').fill('list');
   await press('Enter');
   await page.getByText(/The patterns are in .*list\.txt/).waitFor();
-  const list = readFileSync(join(folder, 'systems/list.txt'), 'utf8');
-  assert.match(list, /^0 0 1 0/, 'the second pattern is the first now');
+  const list = async () => readFileSync(await onDisk(page, 'systems/list.txt'), 'utf8');
+  assert.match(await list(), /^0 0 1 0/, 'the second pattern is the first now');
   await drive.getByRole('button', { name: 'Invert order' }).click();
   await drive.getByRole('button', { name: 'Save…' }).click();
   await dialog.getByLabel('Name').fill('list.txt');
   await press('Enter');
   await dialog.getByRole('button', { name: 'Replace the file' }).click();
   await until(page, 'the dialog is closed', () => !document.querySelector('dialog[open]'));
-  assert.match(readFileSync(join(folder, 'systems/list.txt'), 'utf8'), /^1 0 0 0/);
+  assert.match(await list(), /^1 0 0 0/);
   for (let i = 0; i < 2; i++) await drive.getByRole('button', { name: /^Delete pattern/ }).click();
   assert.equal(await drive.getByRole('button', { name: /^Pattern \d$/ }).count(), 0);
   await drive.getByRole('button', { name: 'Open…' }).click();
@@ -69,7 +68,7 @@ export default async function({ folder, start, open, faults, step }) {
   await dialog.getByLabel('Name').fill('mine');
   await press('Enter');
   await page.getByText(/values are in .*mine\.pconf/).waitFor();
-  assert.ok(existsSync(join(folder, 'systems/mine.pconf')));
+  assert.ok(existsSync(await onDisk(page, 'systems/mine.pconf')));
   await chosen.getByRole('button', { name: 'Read…' }).click();
   await dialog.getByRole('button', { name: 'mine.pconf' }).click();
   await press('Enter');
@@ -114,6 +113,9 @@ export default async function({ folder, start, open, faults, step }) {
   await page.getByText(/restarts in open_arena/).waitFor();
   await until(page, 'its name', () => document.querySelector('header .world')?.textContent.includes('open_arena'));
   await picture(page, 'world');
+
+  assert.deepEqual(faults, []);
+  if (site) return;
 
   step('quit ends the program');
   const ended = new Promise((done) => {
