@@ -45,7 +45,7 @@ json read_document(Session& s, const Request&) {
 json open_new_system(Session& s, const Request& r) {
     RunInput input = s.edited.input;
     input.more.clear(), input.settings.clear(), input.robots.clear(), input.replay.clear();
-    const auto from = r.text("from");
+    const auto& from = r.text("from");
     const Document made = from.empty() ? Document::create(r.text("name"))
                                        : Document::create(r.text("name"), read_file(shipped_path(s, from)));
     input.text = made.text();
@@ -60,7 +60,7 @@ json open_new_system(Session& s, const Request& r) {
 
 json save_document(Session& s, const Request& r) {
     auto& document = *s.edited.document;
-    const auto file = r.text("file");
+    const auto& file = r.text("file");
     const std::string before = document.path(), to = file.empty() ? before : file;
     if (backup_of(to))
         throw InputError(fmt::format("'{}' is a backup and stays as it is", to),
@@ -104,7 +104,8 @@ json write_backup(Session& s, const Request&) {
 }
 
 json reload_document(Session& s, const Request& r) {
-    const auto keep = r.text("keep"), before = s.edited.document->text();
+    const auto& keep = r.text("keep");
+    const auto before = s.edited.document->text();
     if (keep != "mine") check_readable(s.edited.document->path(), {FileKind::system});
     const bool changed = s.edited.document->reload(keep == "mine"     ? Document::Keep::mine
                                                    : keep == "theirs" ? Document::Keep::theirs
@@ -118,7 +119,7 @@ json reload_document(Session& s, const Request& r) {
 }
 
 json import_process_file(Session& s, const Request& r) {
-    const auto path = r.text("file");
+    const auto& path = r.text("file");
     const json operation = {{"do", r.flag("link") ? "use_part" : "import"}, {"file", path}};
     json out = edit_document(s, json::array({operation}), "import " + fs::path(path).filename().string());
     out["id"] = out["ids"][0];
@@ -127,7 +128,7 @@ json import_process_file(Session& s, const Request& r) {
 }
 
 json export_process_file(Session& s, const Request& r) {
-    const auto path = r.text("file");
+    const auto& path = r.text("file");
     if (!s.edited.document->readable())
         throw InputError("the text of the system has mistakes that hide its meaning", "correct them first");
     check_writable(s, path, FileKind::process, r.flag("overwrite"));
@@ -154,7 +155,7 @@ fs::path user_folder(const Session& s, const std::string& file) {
 }
 
 json list_files(Session& s, const Request& r) {
-    const auto beside = r.text("beside");
+    const auto& beside = r.text("beside");
     const fs::path here = r.text("folder").empty()
                               ? user_folder(s, beside.empty() ? s.edited.input.system : beside)
                               : fs::path(r.text("folder"));

@@ -209,7 +209,7 @@ std::string item_id(const Session& s, const std::string& item) {
 }
 
 json describe_item(Session& s, const Request& r) {
-    const auto id = r.text("item");
+    const auto& id = r.text("item");
     const auto& document = *s.edited.document;
     const auto& registry = s.run().registry();
     const auto all = s.shown_system();
@@ -229,7 +229,7 @@ json describe_item(Session& s, const Request& r) {
 }
 
 json replace_item_text(Session& s, const Request& r) {
-    const auto item = r.text("item");
+    const auto& item = r.text("item");
     const auto title = "edit the text of " + (item == "system" ? "the system" : item);
     const auto before = s.edited.document->text();
     s.edited.document->replace_item_text(item_id(s, item), r.text("text"));
@@ -259,7 +259,7 @@ constexpr const char* connection_parts[] = {"pattern", "arborization", "attenuat
 
 json preview_connection(Session& s, const Request& r) {
     model::System system = s.edited.document->system();
-    const auto id = r.text("connection");
+    const auto& id = r.text("connection");
     editing::EditFiles files(s.edited.document->path());
     for (const char* part : connection_parts)
         if (r.has(part))

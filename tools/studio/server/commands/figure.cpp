@@ -162,7 +162,7 @@ std::string commands_of(Session& s, const Request& r, const FigureNeeds& needs) 
     out += "forage plot " + from;
     for (const auto& plot : r.texts("plots")) out += ' ' + shell_word(plot);
     for (const char* option : {"layout", "width"})
-        if (const auto value = r.text(option); !value.empty())
+        if (const auto& value = r.text(option); !value.empty())
             out += fmt::format(" --{} {}", option, shell_word(value));
     return out + " --plot-format " + r.text("format");
 }
@@ -190,9 +190,9 @@ json draw_figure(Session& s, const Request& r) {
     const auto needs = needs_of(s, r);
     Diagnostics diagnostics;
     std::optional<plot::FigureLayout> layout;
-    if (const auto text = r.text("layout"); !text.empty()) layout = plot::parse_layout(text, diagnostics);
+    if (const auto& text = r.text("layout"); !text.empty()) layout = plot::parse_layout(text, diagnostics);
     std::optional<plot::FigureWidth> width;
-    if (const auto text = r.text("width"); !text.empty()) width = plot::parse_width(text, diagnostics);
+    if (const auto& text = r.text("width"); !text.empty()) width = plot::parse_width(text, diagnostics);
     throw_errors(diagnostics);
     const TemporaryFolder folder;
     Results results;

@@ -149,7 +149,7 @@ json read_patterns(Session& s, const Request& r) {
 }
 
 json write_patterns(Session& s, const Request& r) {
-    const auto file = r.text("file");
+    const auto& file = r.text("file");
     const auto& group = group_of(s.run(), r.text("group"));
     const auto patterns = patterns_for(group, r["patterns"]);
     check_writable(s, file, FileKind::patterns, r.flag("overwrite"));
@@ -169,7 +169,7 @@ json move_body(Session& s, const Request& r) {
     if (r.has("robot") == r.has("object"))
         throw InputError("command 'move': exactly one of 'robot' and 'object' is needed", "a name");
     const char* const kind = r.has("robot") ? "robot" : "object";
-    const auto name = r.text(kind);
+    const auto& name = r.text(kind);
     const double x = r.number("x"), y = r.number("y");
     const double heading =
         r.has("heading") ? r.number("heading") : pose_of(world_of(s.run()), name).value_or(Pose2{}).yaw;

@@ -38,7 +38,7 @@ json list_layouts(Session& s, const Request&) {
 }
 
 json read_saved_layout(Session& s, const Request& r) {
-    const auto name = r.text("name");
+    const auto& name = r.text("name");
     if (is_plot_config(name)) {
         const auto path = (system_folder(s) / name).string();
         check_readable(path, {FileKind::plots});

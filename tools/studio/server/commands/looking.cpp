@@ -25,7 +25,7 @@ Run* reference_of(Session& s) { return s.live.reference ? s.live.reference->run.
 
 json subscribe(Session& s, const Request& r) {
     auto& page = page_of(s, r);
-    const auto delivery = r.text("delivery") == "append" ? Delivery::append : Delivery::latest;
+    const auto& delivery = r.text("delivery") == "append" ? Delivery::append : Delivery::latest;
     const auto number = page.subscribe(
         s.pages.sources.stream(s.run(), reference_of(s), r.text("source"), delivery, r.whole("every")));
     const auto& stream = page.stream(number);

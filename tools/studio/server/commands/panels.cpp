@@ -53,7 +53,7 @@ json read_panel_file(Session& s, const Request& r) {
 }
 
 json write_panel_file(Session& s, const Request& r) {
-    const auto path = r.text("file");
+    const auto& path = r.text("file");
     const auto rows = rows_in(s, r);
     check_writable(s, path, FileKind::panel, r.flag("overwrite"));
     write_file(path, xml::panel_text(rows, false));
@@ -61,7 +61,7 @@ json write_panel_file(Session& s, const Request& r) {
 }
 
 json read_parameter_file(Session& s, const Request& r) {
-    const auto file = r.text("file");
+    const auto& file = r.text("file");
     std::vector<std::string> assignments, missing;
     for (const auto& row : read_panel(file, FileKind::parameters)) {
         try {
@@ -91,7 +91,7 @@ std::vector<std::string> all_items(const model::System& system) {
 }
 
 json write_parameter_file(Session& s, const Request& r) {
-    const auto path = r.text("file");
+    const auto& path = r.text("file");
     check_writable(s, path, FileKind::parameters, r.flag("overwrite"));
     std::vector<xml::PanelRow> rows;
     if (r.has("rows")) {

@@ -123,7 +123,7 @@ json restart_run(Session& s, const Request& r) {
 }
 
 json set_speed(Session& s, const Request& r) {
-    const auto mode = r.text("mode");
+    const auto& mode = r.text("mode");
     const bool has_value = mode == "times" || mode == "cycles";
     if (has_value && !(r.number("value") > 0)) throw InputError("a speed of 0 is a pause", "more than 0");
     s.set_speed(mode, has_value ? r.number("value") : 1);
