@@ -11,7 +11,7 @@
 
 #include "core/base/output_files.h"
 #include "core/base/separated.h"
-#include "core/observe/npz.h"
+#include "core/observe/zip_file.h"
 
 namespace forage {
 namespace {
@@ -73,6 +73,15 @@ bool names_no_format(const std::string& text, const engine::Layout& layout) {
         return observe::find_source(layout, groups_of(part, layout).front(), "", unused).has_value();
     };
     return !names_source(text) && names_source(text.substr(0, equals));
+}
+
+/// Extracts an array of an .npz file.
+void extract(const std::string& archive, const std::string& array, const std::string& to) {
+    const observe::ZipFile zip(archive);
+    const auto found = std::ranges::find(zip.entries(), array + ".npy", &observe::ZipFile::Entry::name);
+    if (found == zip.entries().end())
+        throw std::runtime_error(fmt::format("'{}' has no array '{}'", archive, array));
+    zip.extract(*found, to);
 }
 
 }  // namespace
@@ -187,7 +196,7 @@ void Recordings::reopen(const File& f) const {
     if (!f.file.archive.empty() && fs::exists(archive)) {
         const std::string unpacked =
             partial(f.path + ".unpacked");  // a kill during the unpacking would leave an incomplete file
-        observe::extract_npz(archive, f.header.sources.front().name, unpacked);
+        extract(archive, f.header.sources.front().name, unpacked);
         fs::rename(unpacked, partial(f.path));
     } else if (fs::exists(f.path)) {
         fs::rename(f.path, partial(f.path));
@@ -231,9 +240,10 @@ void Recordings::finish(RunView& run, ResultFiles& files) {
     }
     for (const auto& [name, arrays] : archives)
         files.attempt([&, &name = name, &arrays = arrays] {
-            const std::string path = directory_ + "/" + name;
-            try {
-                observe::join_npz(path, arrays);
+            std::vector<observe::ZipEntry> entries;
+            for (const auto& [array, file] : arrays) entries.push_back({array + ".npy", file});
+            try {  // without compression, so that the numbers can be mapped
+                observe::write_zip(directory_ + "/" + name, entries, false);
             } catch (const std::exception& e) {  // the disk may be full, and the arrays are complete
                 for (const auto& f : all_)
                     if (f.file.archive == name) complete(f);

@@ -6,8 +6,8 @@
 
 #include <unistd.h>
 
-#include "core/observe/npz.h"
 #include "core/observe/recorder.h"
+#include "core/observe/zip_file.h"
 #include "tests/unit/core/engine/simulations.h"
 
 using namespace forage;
@@ -219,13 +219,14 @@ TEST_CASE(
     write("a.npz.part/archive.npz.Xy12Zz");
     write("row.npy");
 
-    join_npz(directory / "a.npz", {{"row", directory / "row.npy"}});
-    extract_npz(directory / "a.npz", "row", directory / "again.npy");
+    write_zip(directory / "a.npz", {{"row.npy", directory / "row.npy"}}, false);
+    const ZipFile archive(directory / "a.npz");
+    archive.extract(archive.entries().front(), directory / "again.npy");
     CHECK(text_of(directory / "again.npy") == "row.npy");
     for (const auto& name : neighbours) CHECK(text_of(directory / name) == name);
     CHECK_FALSE(fs::exists(directory / "a.npz.part"));
-    CHECK_THROWS_WITH(join_npz(directory / "none/a.npz", {}), ContainsSubstring("cannot write"));
-    CHECK_THROWS_WITH(join_npz(directory / "a.npz", {{"row", directory / "none.npy"}}),
+    CHECK_THROWS_WITH(write_zip(directory / "none/a.npz", {}, false), ContainsSubstring("cannot write"));
+    CHECK_THROWS_WITH(write_zip(directory / "a.npz", {{"row.npy", directory / "none.npy"}}, false),
                       ContainsSubstring("cannot write"));
     CHECK_FALSE(fs::exists(directory / "a.npz.part"));
 }
