@@ -10,6 +10,7 @@
 #include "core/base/digest.h"
 #include "core/base/output_files.h"
 #include "core/engine/adopt.h"
+#include "core/engine/plan/compile.h"
 #include "core/model/constants.h"
 #include "core/model/edit.h"
 #include "core/model/lookup.h"
@@ -120,6 +121,14 @@ void Run::add_observer(std::unique_ptr<Observer> observer) {
     observer->declare(wanted);
     require(wanted, "what the observer reads or overwrites");
     observers_.push_back(std::move(observer));
+}
+
+std::size_t Run::prunable_groups(std::span<const int> read) const {
+    if (!demand_.reads_everything()) return 0;
+    engine::Demand demand;
+    for (const auto& o : observers_) o->declare(demand);
+    for (const int group : read) demand.read_group(group);
+    return static_cast<std::size_t>(std::ranges::count(engine::prune(*layout_, demand).groups, true));
 }
 
 void Run::require(const engine::Demand& wanted, std::string_view name) const {

@@ -82,6 +82,9 @@ class Run {
     /// The demand in addition to those of observers. Callers may add to it before the run starts.
     engine::Demand& demand() { return demand_; }
 
+    /// Counts the groups on which no observer and no module depends, and none of the groups with the numbers
+    /// in `read`: they would be pruned without Options::compute_everything. Returns 0 where that is not set.
+    std::size_t prunable_groups(std::span<const int> read) const;
     /// Throws InputError, with the name of what is wanted, when the run was compiled without it. Does nothing
     /// before the run starts.
     void require(const engine::Demand& wanted, std::string_view name) const;

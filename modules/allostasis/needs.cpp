@@ -4,6 +4,26 @@
 #include <cmath>
 
 namespace forage::allostasis {
+namespace {
+
+/// S(x) = F_max / (1 + exp(-a (x - threshold))).
+double sigmoid(double x, const NetworkSettings& s) {
+    return s.maximum / (1 + std::exp(-s.slope * (x - s.threshold)));
+}
+
+}  // namespace
+
+void step_network(Eigen::ArrayXd& rates, const Eigen::ArrayXd& input, const Eigen::ArrayXd& z,
+                  const NetworkSettings& s) {
+    const double total = rates.sum();
+    const double pool = sigmoid(total, s);
+    for (Eigen::Index i = 0; i < rates.size(); ++i) {
+        const double u = rates[i];
+        const double x = s.self_excitation * u - s.mutual_share * s.mutual * (total - u) -
+                         (1 - s.mutual_share) * s.shared * pool + input[i];
+        rates[i] = std::max(0.0, u + s.dt / s.tau * (-u + sigmoid(x, s) + s.noise * z[i]));
+    }
+}
 
 void Drives::sense(const LocalViews& views, const NeedSettings& settings) {
     for (int i = 0; i < needs; ++i) {
@@ -23,7 +43,7 @@ void Drives::step(const FiveNeeds& z, const NeedSettings& settings, const Networ
     }
     states_[security] = settings.setpoint - predator_;
     const Eigen::ArrayXd input = settings.gain * settings.priority * errors(settings);
-    allostasis::step(rates_, input, z, network);
+    step_network(rates_, input, z, network);
     normaliser_ = std::max(normaliser_, rates_.maxCoeff());
     forces_ = rates_ / normaliser_;
 }

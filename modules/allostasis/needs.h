@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 
 #include "core/base/archive.h"
-#include "modules/allostasis/drive_network.h"
 
 namespace forage::allostasis {
 
@@ -28,6 +27,26 @@ struct NeedSettings {
     double gain = 100;                                   ///< of the network's inputs
     FiveNeeds priority = FiveNeeds::Ones();              ///< 2 for security is the cautious agent
 };
+
+/// The parameters of the network in which the drives compete. Symbols as in Guerrero-Rosado et al., "Drive
+/// competition underlies effective allostatic orchestration" (Frontiers in Robotics and AI, 2022).
+struct NetworkSettings {
+    double dt = 0.001;           ///< step, s
+    double tau = 0.02;           ///< time constant of a unit, s
+    double self_excitation = 5;  ///< w_e
+    double mutual = 4;           ///< w_mi: inhibition of each unit by each other unit
+    double shared = 4;           ///< w_si: inhibition of all units by the pool
+    double mutual_share = 0.8;   ///< q, 0..1: share of the mutual inhibition
+    double slope = 1.0 / 22;     ///< a of the sigmoid
+    double threshold = 15;       ///< input at which the sigmoid has half its maximum
+    double maximum = 40;         ///< F_max of the sigmoid
+    double noise = 50;           ///< sigma; the noise is not scaled with the square root of dt
+};
+
+/// One step of all rates U from their old values. `input` and `z`, standard normal numbers, have the size of
+/// `rates`.
+void step_network(Eigen::ArrayXd& rates, const Eigen::ArrayXd& input, const Eigen::ArrayXd& z,
+                  const NetworkSettings& settings);
 
 /// Internal states, the network of the drives, and their forces.
 class Drives {

@@ -129,7 +129,7 @@ TEST_CASE("The network of the drives gives the recorded rates") {
                 REQUIRE(noise->next());
                 for (Index i = 0; i < units; ++i) z[i] = (*noise)["z[" + std::to_string(i) + "]"];
             }
-            step(rates, input, z, settings);
+            step_network(rates, input, z, settings);
             for (Index i = 0; i < units; ++i)
                 c.equal("step " + std::to_string(now), rates[i], out["U[" + std::to_string(i) + "]"], 1e-10);
         }

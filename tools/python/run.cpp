@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "core/run/prunable_groups.h"
 #include "core/run/stop_condition.h"
 #include "tools/api/open/moves.h"
 #include "tools/python/held.h"
@@ -161,7 +160,7 @@ void PythonRun::check_demand(std::uint64_t cycles) const {
     if (cycles < long_run) return;
     std::vector<int> shown;
     for (const auto& [column, view] : views_) shown.push_back(column.first);
-    const std::size_t count = prunable_groups(*run_, shown);
+    const std::size_t count = run_->prunable_groups(shown);
     if (count == 0) return;
     Diagnostics warnings;
     warnings.warning(
