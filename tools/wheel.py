@@ -6,7 +6,6 @@ usage: wheel.py BUILT.whl TREE FOLDER
 BUILT.whl is what pip made of the sources, in the build tree TREE. FOLDER gets the wheel. It is the same byte for byte when SOURCE_DATE_EPOCH is.
 auditwheel does this for any wheel, but is not in the distribution.
 """
-import base64
 import hashlib
 import os
 import pathlib
@@ -15,8 +14,6 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
-import zipfile
 
 # Every system has these, as NumPy needs them, too: PEP 600 lets wheels use them.
 SYSTEM = re.compile(r"(lib(c|m|dl|rt|pthread|gcc_s|stdc\+\+)|ld-linux[\w-]*)\.so[.\d]*")
@@ -137,33 +134,10 @@ def replace(file, old, new):
     file.write_text(text.replace(old, new))
 
 
-def write(root, file):
-    """The wheel, with its list of files and digests."""
-    stamp = time.gmtime(int(os.environ.get("SOURCE_DATE_EPOCH", time.time())))[:6]
-    info = next(root.glob("*.dist-info"))
-    record = info / "RECORD"
-    record.unlink()
-    with zipfile.ZipFile(file, "w") as out:
-
-        def add(path, content):
-            entry = zipfile.ZipInfo(str(path.relative_to(root)), stamp)
-            entry.external_attr = (0o100755 if ".so" in path.name else 0o100644) << 16
-            out.writestr(entry, content, zipfile.ZIP_DEFLATED, compresslevel=9)
-
-        lines = []
-        for path in sorted(p for p in root.rglob("*") if p.is_file()):
-            content = path.read_bytes()
-            digest = base64.urlsafe_b64encode(hashlib.sha256(content).digest()).rstrip(b"=").decode()
-            lines.append(f"{path.relative_to(root)},sha256={digest},{len(content)}\n")
-            add(path, content)
-        add(record, "".join(lines) + f"{record.relative_to(root)},,\n")
-
-
 def main(built, tree, folder):
     with tempfile.TemporaryDirectory() as place:
         root = pathlib.Path(place)
-        with zipfile.ZipFile(built) as archive:
-            archive.extractall(root)
+        shutil.unpack_archive(built, root, "zip")
         package, info = root / "forage", next(root.glob("*.dist-info"))
         (module,) = package.glob("_forage*.so")
         libraries = bundle(module, root / "forage.libs")
@@ -177,9 +151,8 @@ def main(built, tree, folder):
         built_for = "linux_" + os.uname().machine
         replace(info / "WHEEL", built_for, tag)
         replace(info / "METADATA", "Requires-Dist: numpy", numpy_requirement(tree))
-        name = pathlib.Path(built).name.replace(built_for, tag)
-        wheel = pathlib.Path(folder, name)
-        write(root, wheel)
+        output(sys.executable, "-m", "wheel", "pack", root, "-d", folder)
+        wheel = pathlib.Path(folder, pathlib.Path(built).name.replace(built_for, tag))
         print(f"wheel: {wheel.name} holds {len(libraries)} libraries and has {wheel.stat().st_size / 1e6:.1f} MB")
 
 
