@@ -10,24 +10,6 @@
 
 namespace forage {
 
-/// The Unicode number of the first character of a text, which utf8_length() has found sound. 0xffff for one
-/// of four bytes, none of which is a control character.
-inline unsigned character_number(std::string_view text) {
-    const auto bits = [&](std::size_t i, unsigned mask) {
-        return static_cast<unsigned>(static_cast<unsigned char>(text[i])) & mask;
-    };
-    switch (utf8_length(text)) {
-        case 1:
-            return bits(0, 0x7f);
-        case 2:
-            return bits(0, 0x1f) << 6 | bits(1, 0x3f);
-        case 3:
-            return bits(0, 0x0f) << 12 | bits(1, 0x3f) << 6 | bits(2, 0x3f);
-        default:
-            return 0xffff;
-    }
-}
-
 /// Whether a character is one of the control characters of ASCII and Unicode.
 inline bool is_control(unsigned number) { return number < ' ' || (number >= 0x7f && number < 0xa0); }
 /// Whether a character begins another line or changes the order of what follows, so that a name looks like
@@ -70,7 +52,7 @@ inline std::string printable(std::string_view text) {
     while (!text.empty()) {
         const std::size_t length = utf8_length(text);
         const auto byte = static_cast<unsigned char>(text[0]);
-        const auto character = character_number(text);
+        const unsigned character = character_number(text);
         if (length == 0 || (byte < ' ' && byte != '\n' && byte != '\t'))
             escape("\\x%02x", byte);
         else if (byte >= ' ' && (is_control(character) || reorders(character)))

@@ -28,4 +28,13 @@ inline std::size_t utf8_length(std::string_view text) {
     return 0;
 }
 
+/// The Unicode number of the first character of a text; the byte itself when it is not UTF-8.
+inline char32_t character_number(std::string_view text) {
+    const std::size_t length = utf8_length(text);
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    char32_t number = length < 2 ? byte(0) : byte(0) & (0xffu >> (length + 1));
+    for (std::size_t i = 1; i < length; ++i) number = number << 6 | (byte(i) & 0x3fu);
+    return number;
+}
+
 }  // namespace forage

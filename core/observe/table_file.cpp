@@ -15,12 +15,8 @@ namespace forage::observe {
 std::u32string characters(std::string_view text) {
     std::u32string out;
     while (!text.empty()) {
-        const std::size_t length = std::max<std::size_t>(utf8_length(text), 1);
-        const auto first = static_cast<unsigned char>(text[0]);
-        char32_t c = length == 1 ? first : first & (0xffu >> (length + 1));
-        for (std::size_t i = 1; i < length; ++i) c = c << 6 | (static_cast<unsigned char>(text[i]) & 0x3fu);
-        out += c;
-        text.remove_prefix(length);
+        out += character_number(text);
+        text.remove_prefix(std::max<std::size_t>(utf8_length(text), 1));
     }
     return out;
 }
