@@ -1,12 +1,15 @@
 // Digests: of states, to compare them; of files, to bind a run to what it has read.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
 namespace forage {
 
-/// The 64-bit FNV-1a digest of a text in hexadecimal digits, which shows whether the text has changed.
+/// The 64-bit FNV-1a digest of a text, which shows whether the text has changed.
+std::uint64_t fnv1a(std::string_view text);
+/// The same in hexadecimal digits.
 std::string digest(std::string_view text);
 /// The SHA-256 digest of a text in hexadecimal digits, which no other text has.
 std::string sha256(std::string_view text);

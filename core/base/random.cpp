@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/base/digest.h"
 #include "core/base/philox.h"
 #include "core/base/simd.h"
 
@@ -15,12 +16,6 @@ std::uint64_t mix(std::uint64_t x) {  // finalizer of splitmix64
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
     return x ^ (x >> 31);
-}
-
-std::uint64_t fnv1a(std::string_view text) {
-    std::uint64_t h = 0xcbf29ce484222325u;
-    for (unsigned char c : text) h = (h ^ c) * 0x100000001b3u;
-    return h;
 }
 
 using philox::Draw;

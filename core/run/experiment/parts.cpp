@@ -28,11 +28,6 @@ double now() {
     return std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 }
 
-std::uint64_t hash(std::uint64_t h, std::string_view text) {  // FNV-1a
-    for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3U;
-    return h;
-}
-
 /// "3-of-10" of "3-of-10_node1-4711.jsonl".
 std::string part_of(const fs::path& file) {
     const std::string name = file.filename().string();
@@ -75,10 +70,9 @@ RunKeys::RunKeys(const RunPlan& plan, const model::Experiment& experiment) : pla
 
 std::uint64_t RunKeys::operator[](std::size_t run) const {
     const std::size_t combination = plan_.combination(run);
-    std::uint64_t h = hash(0xcbf29ce484222325U, digest(shared_));
-    h = hash(h, plan_.files(combination));
-    for (const auto& setting : plan_.settings(combination)) h = hash(hash(h, "\n"), setting.text);
-    return hash(h, fmt::format("\n{}", plan_.seed(run)));
+    std::string text = digest(shared_) + plan_.files(combination);
+    for (const auto& setting : plan_.settings(combination)) text += "\n" + setting.text;
+    return fnv1a(fmt::format("{}\n{}", text, plan_.seed(run)));
 }
 
 void PartFile::create() {
