@@ -233,8 +233,6 @@ Column Simulation::writable_state(int group, int state) {
     return {state_row(parts_->state->groups[group], p, state, parts_->state->shown), p.cells};
 }
 
-void Simulation::invalidate(int group) { parts_->cycle.invalidate(group); }
-
 ConstColumn Simulation::module_output(int module, int port) const {
     const Column& out = parts_->state->modules[module].out[port];
     if (out.size() > 0 && !parts_->plan->modules[module].read[port]) {

@@ -143,9 +143,6 @@ class Simulation {
     Column output(int group);
     /// Returns any state of such a group, to overwrite what its next update reads of the last cycle.
     Column writable_state(int group, int state);
-    /// Makes the next update of a group a full one. It must be called when anything that the group depends on
-    /// has changed by other means than set(), output() and writable_state().
-    void invalidate(int group);
 
     /// Returns what a module wrote last to an output.
     ConstColumn module_output(int module, int port) const;
