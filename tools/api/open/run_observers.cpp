@@ -14,13 +14,21 @@
 #include "core/run/recordings.h"
 #include "core/run/result_names.h"
 #include "core/run/run_json.h"
-#include "core/run/score_recorder.h"
 #include "tools/api/open/motor_statistics.h"
 #include "tools/api/open/world_actions.h"
 #include "tools/plot/plots.h"
 
 namespace forage {
 namespace {
+
+/// Writes score.csv at the end of a run in which a game is played.
+class ScoreRecorder final : public Observer {
+  public:
+    std::vector<std::string> file_names() const override { return {"score.csv"}; }
+    void finish(RunView& run, ResultFiles& files) override {
+        files.write("score.csv", [&] { return run.environment->score_csv(); });
+    }
+};
 
 /// What the functions of the table work on.
 struct Preparation {
