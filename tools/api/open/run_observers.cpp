@@ -15,7 +15,7 @@
 #include "core/run/result_names.h"
 #include "core/run/run_json.h"
 #include "tools/api/open/motor_statistics.h"
-#include "tools/api/open/world_actions.h"
+#include "tools/api/open/moves.h"
 #include "tools/plot/plots.h"
 
 namespace forage {
