@@ -2,7 +2,6 @@
 
 #include "tools/api/experiment/experiment.h"
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <exception>
@@ -13,6 +12,7 @@
 
 #include "core/base/cores.h"
 #include "core/base/sequence.h"
+#include "core/run/experiment/tables.h"
 #include "tools/python/tables.h"
 #include "tools/python/values.h"
 
@@ -60,41 +60,19 @@ class Watch {
     std::atomic<bool> ended_ = false;
 };
 
-/// A column of the table of results.
-template <class Value>
-void add_column(py::list& columns, const std::string& name, const ExperimentOutcome& outcome, Value value) {
-    py::list values;
-    for (std::size_t i = 0; i < outcome.runs.size(); ++i) values.append(value(i, outcome.results[i]));
-    columns.append(py::make_tuple(name, values));
-}
-
-/// The columns of results.csv.
+/// The columns of the table of results: their names and values.
 py::list columns_of(const ExperimentOutcome& outcome) {
     py::list out;
-    const auto add = [&](const std::string& name, auto value) { add_column(out, name, outcome, value); };
-    add("run", [&](std::size_t run, const RunResult&) { return outcome.runs.name(run); });
-    const auto& experiment = outcome.experiment;
-    for (std::size_t i = 0; i < experiment.sweeps.size(); ++i)
-        add(experiment.sweeps[i].parameter.text, [&, i](std::size_t run, const RunResult&) {
-            return outcome.runs.values(outcome.runs.combination(run))[i];
-        });
-    add("seed", [&](std::size_t run, const RunResult&) { return outcome.runs.seed(run); });
-    add("status", [](std::size_t, const RunResult& r) {
-        return !r.failure.empty() ? "failed" : r.stopped.empty() ? "finished" : "stopped";
-    });
-    add("cycles", [](std::size_t, const RunResult& r) { return r.cycles; });
-    add("seconds", [](std::size_t, const RunResult& r) { return r.seconds; });
-    if (std::ranges::any_of(outcome.results, [](const auto& r) { return r.trials.has_value(); })) {
-        add("trials", [](std::size_t, const RunResult& r) { return r.trials.value_or(0); });
-        add("reached", [](std::size_t, const RunResult& r) { return r.reached.value_or(0); });
+    for (const auto& column : results_columns(outcome.experiment, outcome.runs, outcome.results)) {
+        const std::size_t sweep = out.size() - 1;  // behind the names of the runs
+        py::list values;
+        for (std::size_t run = 0; run < outcome.runs.size(); ++run)
+            if (sweep < outcome.experiment.sweeps.size())  // texts, which may become integers
+                values.append(outcome.runs.values(outcome.runs.combination(run))[sweep]);
+            else
+                std::visit([&](const auto& value) { values.append(value(run)); }, column.values);
+        out.append(py::make_tuple(column.name, values));
     }
-    for (std::size_t i = 0; i < experiment.measures.size(); ++i)
-        add(experiment.measures[i].name, [i](std::size_t, const RunResult& r) {
-            return r.failure.empty() ? r.measures[i] : std::nullopt;
-        });
-    add("remark", [](std::size_t, const RunResult& r) {
-        return !r.failure.empty() ? r.failure : !r.stopped.empty() ? r.stopped : r.diverged;
-    });
     return out;
 }
 
