@@ -52,7 +52,7 @@ Physics::Physics(std::span<const Obstacle> obstacles, std::span<const Body> bodi
     // Steps must not allocate memory.
     const std::size_t n = bodies_.size();
     states_before_.resize(n), velocities_before_.resize(n), corrections_.resize(n), reach_.resize(n);
-    step_velocities_.resize(n), step_reach_.resize(n), coasting_.resize(n), undisturbed_.resize(n);
+    coasting_.resize(n), undisturbed_.resize(n);
     active_.reserve(n);
     near_.resize(n), root_.resize(n), members_.reserve(n), islands_.reserve(n), areas_.reserve(n);
     for (auto& near : near_) near.reserve(n);
@@ -139,16 +139,6 @@ void Physics::move_freely(std::size_t island, const Pose2& pose, const Velocity&
         move(i, mean, static_cast<double>(steps_) * step_);
         velocities_[i] = end;
     }
-}
-
-void Physics::step(std::span<const MotorCommand> commands) {
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        if (!bodies_[i].driven || !states_[i].present) continue;
-        step_velocities_[i] = velocity_of(i, commands[i]);
-        step_reach_[i] = {std::abs(commands[i].forward) * step_, std::abs(commands[i].turn) * step_, 0};
-    }
-    begin(step_reach_, 1);
-    for (std::size_t i = 0; i < islands(); ++i) advance(i, step_velocities_, 1);
 }
 
 void Physics::advance(std::size_t island, std::span<const Velocity> velocities, std::uint64_t steps) {

@@ -54,9 +54,6 @@ class Physics {
     void remove(std::size_t body);
     bool present(std::size_t body) const { return states_[body].present; }
 
-    /// Simulates one time step. `commands[i]` drives body i; those of movable objects are ignored.
-    void step(std::span<const MotorCommand> commands);
-
     // ---- several steps at once: begin(), then each island by itself ----
     /// Divides the present bodies into islands for the next `steps` steps. `reach[i]` is that of body i per
     /// step; those of movable objects are ignored.
@@ -270,8 +267,6 @@ class Physics {
     std::vector<Eigen::Vector2d> corrections_;      ///< per body: moves it out of what it penetrates, m
     std::vector<State> states_before_;              ///< before the current stride
     std::vector<Velocity> velocities_before_;
-    std::vector<Velocity> step_velocities_;  ///< of step(), and step_reach_, too
-    std::vector<Reach> step_reach_;
     std::vector<Outline> outlines_before_;               ///< outlines of parts before rotate_parts()
     std::vector<std::pair<std::size_t, Pose2>> pushed_;  ///< bodies that parts pushed, with the poses before
     std::unique_ptr<BulletWorld> bullet_;

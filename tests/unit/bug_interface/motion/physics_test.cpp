@@ -12,6 +12,7 @@
 
 using namespace forage::bug;
 using forage::test::physics_step_s;
+using forage::test::step;
 using std::numbers::pi;
 using Stepping = Physics::Stepping;
 
@@ -50,7 +51,7 @@ struct OneRobot {
         physics.place(0, start);
     }
     void drive(MotorCommand command, int steps = 1) {
-        for (int i = 0; i < steps; ++i) physics.step(std::array{command});
+        for (int i = 0; i < steps; ++i) step(physics, std::array{command});
     }
     double gap() const {
         double least = 1e9;
@@ -124,7 +125,7 @@ TEST_CASE("A fast robot does not run into a slow one, whatever their order") {
                 std::array<MotorCommand, 2> drives{};
                 drives[fast].forward = speed, drives[slow].forward = 0.5;
                 for (int i = 0; i < 100; ++i) {
-                    p.step(drives);
+                    step(p, drives);
                     INFO(speed << " m/s, step " << i);
                     REQUIRE(p.pose(slow).x - p.pose(fast).x > 2 * robot_radius - 0.001);
                 }
@@ -150,7 +151,7 @@ TEST_CASE("An object that is hit by a fast robot does not penetrate the next one
             Physics p({}, bodies, physics_step_s);
             p.place(0, {0, 0, 0}), p.place(1, {0.35, 0, 0}), p.place(2, {0.35 + 2 * ball.radius + gap, 0, 0});
             for (int i = 0; i < 200; ++i) {
-                p.step(std::array<MotorCommand, 3>{{{speed, 0}, {}, {}}});
+                step(p, std::array<MotorCommand, 3>{{{speed, 0}, {}, {}}});
                 INFO(speed << " m/s, " << gap << " m, step " << i);
                 REQUIRE(p.pose(1).x - p.pose(0).x > robot_radius + ball.radius - 0.001);
                 REQUIRE(p.pose(2).x - p.pose(1).x > 2 * ball.radius - 0.001);
@@ -165,7 +166,7 @@ TEST_CASE("Objects that overlap at rest stay where they are") {
     for (const auto when : {Stepping::strides, Stepping::single}) {
         Physics p({}, bodies, physics_step_s, when);
         p.place(0, {5, 0, 0}), p.place(1, {0, 0, 0}), p.place(2, {2 * ball.radius - 0.0007, 0, 0});
-        for (int i = 0; i < 100; ++i) p.step(std::array<MotorCommand, 3>{{{0.1, 0.1}, {}, {}}});
+        for (int i = 0; i < 100; ++i) step(p, std::array<MotorCommand, 3>{{{0.1, 0.1}, {}, {}}});
         CHECK(p.pose(2).x == 2 * ball.radius - 0.0007);
         CHECK(p.pose(1).x == 0);
     }
@@ -181,7 +182,7 @@ TEST_CASE("A robot that is squeezed between two crates and a wall penetrates non
     Physics p(wall, bodies, physics_step_s);
     p.place(0, {0, 0, 0}), p.place(1, {-0.1, 0.8, -pi / 2}), p.place(2, {-0.1, -0.8, pi / 2});
     for (int i = 0; i < 1500; ++i) {
-        p.step(std::array<MotorCommand, 3>{{{1, 0.5}, {1, 0.1}, {1, -0.2}}});
+        step(p, std::array<MotorCommand, 3>{{{1, 0.5}, {1, 0.1}, {1, -0.2}}});
         Outline round;
         round.round = true, round.x = p.pose(0).x, round.y = p.pose(0).y, round.radius = robot_radius;
         REQUIRE(overlap(wall[0].outline, round).depth < 0.001);
@@ -267,17 +268,17 @@ TEST_CASE("Robots stop each other head-on, and one that stands still is pushed a
     Physics head_on({}, bodies, physics_step_s);
     head_on.place(0, {-1, 0, 0});
     head_on.place(1, {1, 0, pi});
-    for (int i = 0; i < 2000; ++i) head_on.step(std::array{MotorCommand{1, 0}, MotorCommand{1, 0}});
+    for (int i = 0; i < 2000; ++i) step(head_on, std::array{MotorCommand{1, 0}, MotorCommand{1, 0}});
     CHECK(head_on.pose(0).x == Approx(-0.2).margin(1e-3));
     CHECK(head_on.pose(1).x == Approx(0.2).margin(1e-3));
 
     Physics push({}, bodies, physics_step_s);
     push.place(0, {-1, 0, 0});
     push.place(1, {0, 0, 0});
-    for (int i = 0; i < 600; ++i) push.step(std::array{MotorCommand{1, 0}, MotorCommand{0, 0}});
+    for (int i = 0; i < 600; ++i) step(push, std::array{MotorCommand{1, 0}, MotorCommand{0, 0}});
     const double before = push.pose(1).x;
     CHECK(before == Approx(0).margin(1e-3));
-    for (int i = 0; i < 1000; ++i) push.step(std::array{MotorCommand{1, 0}, MotorCommand{0, 0}});
+    for (int i = 0; i < 1000; ++i) step(push, std::array{MotorCommand{1, 0}, MotorCommand{0, 0}});
     CHECK(push.pose(1).x - before == Approx(0.5).margin(0.01));
     CHECK(push.pose(1).x - push.pose(0).x == Approx(0.4).margin(1e-3));
 }
@@ -295,7 +296,7 @@ TEST_CASE("A crowd of robots in a room does not overlap") {
             drives[i] = {1.5 * random.uniform(s / 300, index) - 0.3,
                          6 * random.uniform(s / 300, index + 1) - 3};
         }
-        crowd.step(drives);
+        step(crowd, drives);
         for (std::size_t i = 0; i < n; ++i) {
             const Pose2& a = crowd.pose(i);
             for (std::size_t j = 0; j < i; ++j)
@@ -312,7 +313,7 @@ TEST_CASE("A removed robot touches nothing and does not move") {
     p.place(0, {-1, 0, 0});
     p.place(1, {0, 0, 0});
     p.remove(1);
-    for (int i = 0; i < 2000; ++i) p.step(std::array{MotorCommand{1, 0}, MotorCommand{1, 0}});
+    for (int i = 0; i < 2000; ++i) step(p, std::array{MotorCommand{1, 0}, MotorCommand{1, 0}});
     CHECK(p.pose(0).x == Approx(1));
     CHECK(p.pose(1).x == 0);
 }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "tests/unit/bug_interface/physics_step.h"
 #include "tests/unit/bug_interface/worlds.h"
 
 using namespace forage;
@@ -30,7 +31,7 @@ std::vector<Obstacle> walls() {
 /// Robots that push each other and the walls all the time.
 class Crowd {
   public:
-    Crowd() : physics_(walls(), std::vector<Body>(crowd_size), 0.001) {
+    Crowd() : physics_(walls(), std::vector<Body>(crowd_size), test::physics_step_s) {
         for (std::size_t i = 0; i < crowd_size; ++i)
             physics_.place(i, {-0.45 + 0.45 * static_cast<double>(i % 3),
                                -0.45 + 0.45 * static_cast<double>(i / 3), static_cast<double>(i)});
@@ -42,7 +43,7 @@ class Crowd {
             d.forward = static_cast<double>(chance() % 1000) / 500;
             d.turn = static_cast<double>(chance() % 1000) / 100 - 5;
         }
-        physics_.step(drives);
+        test::step(physics_, drives);
     }
     std::string state() {
         Archive out;

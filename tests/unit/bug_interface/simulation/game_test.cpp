@@ -138,7 +138,7 @@ TEST_CASE("A resource that a robot holds does not age") {
     double time = 0;
     const auto run = [&](int steps) {
         for (; steps > 0; --steps)
-            physics.step(drives), game.advance(physics, time += physics_step_s, physics_step_s, 1);
+            test::step(physics, drives), game.advance(physics, time += physics_step_s, physics_step_s, 1);
     };
     run(1500);
     REQUIRE_FALSE(game.resources()[0].removed);

@@ -16,6 +16,7 @@ using test::apart;
 using test::description;
 using test::make_world;
 using test::physics_step_s;
+using test::step;
 
 namespace {
 
@@ -82,11 +83,11 @@ TEST_CASE("A pushed ball moves ahead of the robot, and slides until friction sto
     Physics p({}, std::vector<Body>{Body{}, ball()}, physics_step_s);
     p.place(0, {0, 0, 0});
     p.place(1, {0.5, 0, 0});
-    for (int i = 0; i < 1000; ++i) p.step(std::array{MotorCommand{1, 0}, MotorCommand{}});
+    for (int i = 0; i < 1000; ++i) step(p, std::array{MotorCommand{1, 0}, MotorCommand{}});
     CHECK(p.pose(0).x == Approx(1).margin(2e-3));
     CHECK(apart(p.pose(0), p.pose(1)) == Approx(0.28).margin(1e-3));
     const double before = p.pose(1).x;
-    for (int i = 0; i < 2000; ++i) p.step(std::array{MotorCommand{-1, 0}, MotorCommand{}});
+    for (int i = 0; i < 2000; ++i) step(p, std::array{MotorCommand{-1, 0}, MotorCommand{}});
     CHECK(p.pose(1).x - before == Approx(1 / (2 * 0.98)).epsilon(0.01));  // v^2 / 2 a
     CHECK(p.speed(1) == 0);
 }
@@ -99,7 +100,7 @@ TEST_CASE("A ball between a robot and a wall stops the robot") {
     p.place(1, {0.6, 0, 0});
     double deepest = 0;
     for (int i = 0; i < 3000; ++i) {
-        p.step(std::array{MotorCommand{1, 0}, MotorCommand{}});
+        step(p, std::array{MotorCommand{1, 0}, MotorCommand{}});
         deepest = std::max({deepest, p.pose(1).x + 0.08 - 1, 0.28 - apart(p.pose(0), p.pose(1))});
     }
     CHECK(deepest < 0.001);
@@ -110,7 +111,7 @@ TEST_CASE("A crate that is pushed off its centre turns") {
     Physics p({}, std::vector<Body>{Body{}, crate(0.3, 0.5)}, physics_step_s);
     p.place(0, {0, 0.1, 0});
     p.place(1, {0.6, 0, 0});
-    for (int i = 0; i < 1200; ++i) p.step(std::array{MotorCommand{0.5, 0}, MotorCommand{}});
+    for (int i = 0; i < 1200; ++i) step(p, std::array{MotorCommand{0.5, 0}, MotorCommand{}});
     CHECK(p.pose(1).x > 0.7);
     CHECK(p.pose(1).yaw < -0.05);
 }
@@ -123,7 +124,7 @@ TEST_CASE("Shapes touch only if they share heights") {
     high.layer = 1;
     Physics p(beam, std::vector<Body>{low, high}, physics_step_s, Physics::Stepping::strides, {1, 2});
     p.place(0, {0, 0, 0}), p.place(1, {0, 0, 0});
-    for (int i = 0; i < 2000; ++i) p.step(std::array{MotorCommand{1, 0}, MotorCommand{1, 0}});
+    for (int i = 0; i < 2000; ++i) step(p, std::array{MotorCommand{1, 0}, MotorCommand{1, 0}});
     CHECK(p.pose(0).x == Approx(2));
     CHECK(p.pose(1).x == Approx(0.7).margin(1e-3));
 }
@@ -148,7 +149,7 @@ TEST_CASE(
         if (step % 100 == 0)
             for (std::uint32_t i = 0; i < 2; ++i)
                 drives[i] = {2 * random.uniform(step, 2 * i) - 0.8, 4 * random.uniform(step, 2 * i + 1) - 2};
-        p.step(drives);
+        test::step(p, drives);
         for (std::size_t i = 0; i < bodies.size(); ++i) {
             fastest = std::max(fastest, p.speed(i));
             farthest = std::max({farthest, std::abs(p.pose(i).x), std::abs(p.pose(i).y)});
