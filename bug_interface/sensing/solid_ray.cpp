@@ -173,13 +173,6 @@ void intersect(const SolidInView& solid, const Rays& rays, double first_face, co
     }
 }
 
-Eigen::Vector3d curved_normal(ShapeKind kind, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                              double depth) {
-    Eigen::Vector3d normal = origin + depth * direction;
-    if (kind == ShapeKind::cylinder) normal.z() = 0;
-    return normal.normalized();
-}
-
 void light_curved(const SolidInView& solid, const Eigen::Matrix3d& to_world, const Eigen::Vector3d& sun,
                   const Rays& rays, const double* entry, double* lit) {
     Surface surface{solid.kind == ShapeKind::cylinder, {}, {}};

@@ -49,13 +49,9 @@ struct Nearest {
 /// and their face: `first_face` + that of face_normal(), or + Nearest::curved.
 void intersect(const SolidInView& solid, const Rays& rays, double first_face, const Nearest& nearest);
 
-/// The outward unit normal at the point where a ray enters a cylinder or sphere through its curved face.
-Eigen::Vector3d curved_normal(ShapeKind kind, const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
-                              double depth);
-
 /// Writes how much of the light from `sun`, a unit vector, falls on the points where rays enter the curved
-/// face of `solid`, at the depths `entry`: max(0, sun * to_world * curved_normal()) to the bit. Other rays
-/// get any numbers.
+/// face of `solid`, at the depths `entry`: max(0, sun * to_world * normal) to the bit. Other rays get any
+/// numbers.
 void light_curved(const SolidInView& solid, const Eigen::Matrix3d& to_world, const Eigen::Vector3d& sun,
                   const Rays& rays, const double* entry, double* lit);
 
