@@ -90,17 +90,6 @@ void fill_border(Image& image) {
             std::copy_n(image.row(from) - image.border, image.stride(), image.row(to) - image.border);
 }
 
-png_image to_write(int width, int height, std::span<const std::uint8_t> rgb) {
-    if (rgb.size() != std::size_t(3) * std::size_t(width) * std::size_t(height))
-        throw std::runtime_error("the number of pixels is not width x height");
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    png.width = static_cast<png_uint_32>(width);
-    png.height = static_cast<png_uint_32>(height);
-    png.format = PNG_FORMAT_RGB;
-    return png;
-}
-
 }  // namespace
 
 Image read_png(const std::string& path, int border) {
@@ -128,14 +117,14 @@ std::string png_problem(const std::string& path) {
     return {};
 }
 
-void write_png(const std::string& path, int width, int height, std::span<const std::uint8_t> rgb) {
-    png_image png = to_write(width, height, rgb);
-    if (!png_image_write_to_file(&png, path.c_str(), 0, rgb.data(), 0, nullptr))
-        throw std::runtime_error(path + ": " + png.message);
-}
-
 std::string encode_png(int width, int height, std::span<const std::uint8_t> rgb) {
-    png_image png = to_write(width, height, rgb);
+    if (rgb.size() != std::size_t(3) * std::size_t(width) * std::size_t(height))
+        throw std::runtime_error("the number of pixels is not width x height");
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    png.width = static_cast<png_uint_32>(width);
+    png.height = static_cast<png_uint_32>(height);
+    png.format = PNG_FORMAT_RGB;
     png.flags = PNG_IMAGE_FLAG_FAST;
     std::string out(PNG_IMAGE_PNG_SIZE_MAX(png), '\0');
     png_alloc_size_t size = out.size();

@@ -33,11 +33,8 @@ Image read_png(const std::string& path, int border);
 /// empty when they show none.
 std::string png_problem(const std::string& path);
 
-/// Writes `rgb`, which holds three bytes per pixel in rows from the top. Throws std::runtime_error with the
-/// reason when the file cannot be written.
-void write_png(const std::string& path, int width, int height, std::span<const std::uint8_t> rgb);
-
-/// The bytes of a PNG file, compressed for speed rather than size.
+/// The bytes of a PNG file, compressed for speed rather than size. `rgb` holds three bytes per pixel in rows
+/// from the top.
 std::string encode_png(int width, int height, std::span<const std::uint8_t> rgb);
 
 }  // namespace forage::bug
