@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <utility>
@@ -8,12 +10,32 @@
 
 #include "core/plugin/contract.h"
 #include "core/plugin/draw_parameters.h"
-#include "core/plugin/guarded_buffer.h"
 
 namespace forage::plugin {
 namespace {
 
 using Undeclared = NeuronColumns::Undeclared;
+
+/// Zeros with a margin on both sides that shows whether it was written to, beyond the ends of the buffer.
+class GuardedBuffer {
+  public:
+    explicit GuardedBuffer(Index size)
+        : all_(static_cast<std::size_t>(size + 2 * margin), std::bit_cast<double>(untouched)) {
+        std::fill_n(data(), size, 0.0);
+    }
+    double* data() { return all_.data() + margin; }
+    bool intact() const {
+        const auto same = [](double v) { return std::bit_cast<std::uint64_t>(v) == untouched; };
+        return std::all_of(all_.begin(), all_.begin() + margin, same) &&
+               std::all_of(all_.end() - margin, all_.end(), same);
+    }
+
+  private:
+    static constexpr Index margin = 64;  ///< numbers
+    static constexpr std::uint64_t untouched =
+        0x7ff8'f0a6'e0b5'1d37;  ///< a number that no type writes by chance
+    std::vector<double> all_;
+};
 
 /// What some cells receive in every cycle.
 struct Given {
