@@ -12,6 +12,7 @@
 #include "bug_interface/world/sdf_new_items.h"
 #include "bug_interface/world/sdf_properties.h"
 #include "bug_interface/world/sdf_unpack.h"
+#include "core/base/capitalized.h"
 #include "core/base/number.h"
 #include "core/base/sequence.h"
 #include "core/xml/check.h"
@@ -66,8 +67,7 @@ std::string free_name(const Opened& here, const std::string& kind) {
         throw std::invalid_argument("there are already two homes");
     }
     if (kind == "floor") return "GroundPlane";
-    std::string stem = kind;
-    if (!stem.empty()) stem[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(stem[0])));
+    const std::string stem = capitalized(kind);
     return here.has(stem) ? first_free(stem + "_", 2, 100'000) : stem;
 }
 

@@ -272,13 +272,8 @@ void join(System& system, System other) {
         if (!find_constant(system, c.name)) system.constants.push_back(std::move(c));
     take_over_types(system, other);
     add_free_prefix(system, "", "S{}_", other.processes, other.connections, other.canvas_comments);
-    const auto named = [&](const std::string& name) {
-        return std::ranges::any_of(system.processes,
-                                   [&](const auto& p) { return trim(p.name) == trim(name); });
-    };
     for (auto& p : other.processes) {
-        const std::string name(trim(p.name));
-        for (int n = 2; named(p.name); ++n) p.name = fmt::format("{} {}", name, n);
+        p.name = free_name(system.processes, p.name);
         system.processes.push_back(std::move(p));
     }
     for (auto& c : other.connections) system.connections.push_back(std::move(c));

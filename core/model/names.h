@@ -2,6 +2,7 @@
 // options.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,17 @@ std::vector<int> items_named(const Items& items, std::string_view wanted) {
     wanted = trim(wanted);
     auto out = positions(items, [&](const auto& item) { return item.id == wanted; });
     return out.empty() ? positions(items, [&](const auto& item) { return trim(item.name) == wanted; }) : out;
+}
+
+/// `name`, or `name` with a number, so that none of the items has it.
+template <class Items>
+std::string free_name(const Items& items, const std::string& name) {
+    const auto is_taken = [&](std::string_view wanted) {
+        return std::ranges::any_of(items, [&](const auto& i) { return trim(i.name) == trim(wanted); });
+    };
+    std::string out = name;
+    for (int n = 2; is_taken(out); ++n) out = std::string(trim(name)) + " " + std::to_string(n);
+    return out;
 }
 
 /// The positions of the groups that `wanted` names. It is "Process/Group", "Process/Group#id", "#id" or an

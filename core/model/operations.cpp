@@ -83,17 +83,6 @@ void set_references(std::vector<CrossReference>& references,
     }
 }
 
-/// `name`, or `name` with a number, so that it is not among `taken`.
-template <class Items>
-std::string free_name(const Items& taken, const std::string& name) {
-    const auto is_taken = [&](std::string_view wanted) {
-        return std::ranges::any_of(taken, [&](const auto& item) { return trim(item.name) == trim(wanted); });
-    };
-    std::string out = name;
-    for (int n = 2; is_taken(out); ++n) out = fmt::format("{} {}", trim(name), n);
-    return out;
-}
-
 }  // namespace
 
 Process& editable_process(System& system, std::string_view id) {

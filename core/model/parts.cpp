@@ -167,13 +167,7 @@ Connection renamed(const Names& names, Connection c) {
 
 std::string use_part(System& system, const ProcessFile& file, const std::string& path, std::string name,
                      std::string id) {
-    if (trim(name).empty()) {
-        const std::string first(trim(file.process.name));
-        const auto is_taken = [&](const auto& p) { return trim(p.name) == name; };
-        name = first;
-        for (int n = 2; std::ranges::any_of(system.processes, is_taken); ++n)
-            name = fmt::format("{} {}", first, n);
-    }
+    if (trim(name).empty()) name = free_name(system.processes, std::string(trim(file.process.name)));
     if (id.empty()) id = fresh_id(system, file.process.id);
     auto made = add_process(system, std::move(name), std::move(id));
     find_process(system, made)->path = path;

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/sequence.h"
 #include "core/model/build.h"
 #include "core/model/lookup.h"
 #include "core/model/operations.h"
@@ -17,25 +18,13 @@ using namespace model;
 
 namespace {
 
-/// A name that no group of the process has.
-std::string free_name(const Process& process, const std::string& wanted) {
-    const auto taken = [&](const std::string& name) {
-        return std::ranges::any_of(process.groups, [&](const Group& g) { return trim(g.name) == name; });
-    };
-    std::string out = wanted;
-    for (int n = 2; taken(out); ++n) out = fmt::format("{} {}", wanted, n);
-    return out;
-}
-
 bool leads_somewhere(const std::vector<CrossReference>& all, const std::string& port) {
     return std::ranges::any_of(all, [&](const auto& r) { return r.name == port && !r.target.empty(); });
 }
 
 const ModulePort* find_port(const Process& process, const Registry& registry, const std::string& name) {
     const auto* type = process.module ? registry.module(process.module->type) : nullptr;
-    if (!type) return nullptr;
-    const auto port = std::ranges::find(type->ports, name, &ModulePort::name);
-    return port == type->ports.end() ? nullptr : &*port;
+    return type ? find_by(type->ports, name, &ModulePort::name) : nullptr;
 }
 
 }  // namespace
@@ -69,8 +58,8 @@ std::vector<std::string> add_port_groups(System& system, const Registry& registr
         const auto size = size_at_port(*p, registry, name, rectangle(1, 1)).value_or(rectangle(1, 1));
         const int place = static_cast<int>(p->groups.size());
         const auto label = port->label.empty() ? port->name : port->label;
-        const auto made = model::add_group(system, process, free_name(*p, label), size.width, size.height,
-                                           "neuronLinearThreshold", {});
+        const auto made = model::add_group(system, process, free_name(p->groups, label), size.width,
+                                           size.height, "neuronLinearThreshold", {});
         model::place(system, made, 20 + 70 * (place % 4), 20 + 70 * (place / 4));
         const std::map<std::string, std::string> wired{{name, made}}, nothing;
         set_ports(system, process, port->is_output ? nothing : wired, port->is_output ? wired : nothing);
