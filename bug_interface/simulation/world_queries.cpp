@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "bug_interface/simulation/movable_object.h"
+#include "core/base/sequence.h"
 
 namespace forage::bug {
 namespace {
@@ -32,9 +33,7 @@ bool has_plugin(const Model& model, std::string_view filename) {
 }
 
 const Link* robot_link(const Model& model) {
-    if (!has_plugin(model, "libvel_plugin.so")) return nullptr;
-    const auto link = std::ranges::find(model.links, "bug", &Link::name);
-    return link == model.links.end() ? nullptr : &*link;
+    return has_plugin(model, "libvel_plugin.so") ? find_by(model.links, "bug", &Link::name) : nullptr;
 }
 
 std::vector<Solid> solids_of(const Model& model) {

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number.h"
+#include "core/base/sequence.h"
 #include "core/xml/document.h"
 
 namespace forage::bug {
@@ -36,8 +37,7 @@ std::string_view take_word(std::string_view& path) {
 }  // namespace
 
 const SourceElement* child(const SourceElement& e, std::string_view name) {
-    const auto it = std::ranges::find(e.children, name, &SourceElement::name);
-    return it == e.children.end() ? nullptr : &*it;
+    return find_by(e.children, name, &SourceElement::name);
 }
 
 const SourceElement* at_path(const SourceElement& e, std::string_view path) {

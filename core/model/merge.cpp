@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/sequence.h"
 #include "core/model/build.h"
 #include "core/model/constants.h"
 #include "core/model/lookup.h"
@@ -87,12 +88,8 @@ class Merger {
         return content(a) == content(b);
     }
     void settings(const std::string& where, const TypeUse& base, const TypeUse& mine, TypeUse& theirs) {
-        const auto find = [](auto& use, const std::string& name) {
-            const auto it = std::ranges::find(use.settings, name, &Setting::name);
-            return it == use.settings.end() ? nullptr : &*it;
-        };
         const auto value = [&](const TypeUse& use, const std::string& name) -> std::optional<std::string> {
-            const auto* s = find(use, name);
+            const auto* s = find_by(use.settings, name, &Setting::name);
             return s ? std::optional(s->value) : std::nullopt;
         };
         std::vector<std::string> names;
@@ -104,7 +101,7 @@ class Merger {
             if (there != was) conflicts_.push_back(fmt::format("the parameter '{}' of {}", name, where));
             if (!is)
                 std::erase_if(theirs.settings, [&](const auto& s) { return s.name == name; });
-            else if (auto* s = find(theirs, name))
+            else if (auto* s = find_by(theirs.settings, name, &Setting::name))
                 s->value = *is;
             else
                 theirs.settings.push_back({name, *is, {}, {}});
@@ -125,8 +122,7 @@ class Merger {
     template <class Item>
     void items(const std::vector<Item>& base, const std::vector<Item>& mine, std::vector<Item>& theirs) {
         const auto find = [](auto& all, const Item& item) {
-            const auto it = std::ranges::find_if(all, [&](const Item& i) { return id_of(i) == id_of(item); });
-            return it == all.end() ? nullptr : &*it;
+            return find_by(all, id_of(item), [](const Item& i) { return id_of(i); });
         };
         for (const Item& was : base) {
             const Item* is = find(mine, was);

@@ -160,8 +160,6 @@ class Validator {
                        "cycles in a second, from 1e-6 to 1000000; 0 counts as 25");
     }
 
-    /// A sentence without its full stop, for use within another sentence.
-
     /// The parameter that is probably meant by `name`, which may be a label.
     static const Parameter* probably(std::string_view name, const std::vector<Parameter>& parameters,
                                      const std::vector<std::string>& known) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/base/sequence.h"
+
 namespace forage::xml {
 namespace {
 
@@ -17,8 +19,7 @@ std::size_t line_end(std::string_view text, std::size_t at) {
 }  // namespace
 
 const SourceAttribute* SourceElement::attribute(std::string_view wanted) const {
-    const auto it = std::ranges::find(attributes, wanted, &SourceAttribute::name);
-    return it == attributes.end() ? nullptr : &*it;
+    return find_by(attributes, wanted, &SourceAttribute::name);
 }
 
 std::string_view SourceElement::value(std::string_view wanted) const {
