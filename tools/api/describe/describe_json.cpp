@@ -141,8 +141,6 @@ json icon_of(const std::optional<model::Icon>& icon) {
     return {{"x", icon->x}, {"y", icon->y}, {"width", icon->width}, {"height", icon->height}};
 }
 
-json describe_system(const Run& run) { return describe_system(run.system(), run.registry(), &run); }
-
 // What papers and terminals read of a system (system_description.h) is in each object; the rest is for
 // showing it: places, colours, states, and ids instead of names.
 json describe_system(const model::System& system, const Registry& registry, const Run* run) {

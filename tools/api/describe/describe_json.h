@@ -14,10 +14,8 @@ namespace forage {
 
 /// The place of an item in the diagram; null without one.
 nlohmann::json icon_of(const std::optional<model::Icon>& icon);
-/// The processes, groups and connections of a run that has started, with their places in the diagram.
-nlohmann::json describe_system(const Run& run);
-/// The same of a system that is edited, for which `run` may not stand: what is not in the run has no
-/// synapses.
+/// The processes, groups and connections of a system, with their places in the diagram. What is not in the
+/// run, which may be null, has no synapses.
 nlohmann::json describe_system(const model::System& system, const Registry& registry, const Run* run);
 /// The robots, objects and fixed solids of a world, with the part of the floor that a map shows.
 nlohmann::json describe_world(const bug::World& world);
