@@ -18,12 +18,9 @@ constexpr std::size_t max_depth = 100;
 
 /// The mistake at a byte of a text, from 1.
 InputError mistake(const std::string& text, const std::string& name, std::size_t byte) {
-    const std::string_view before = std::string_view(text).substr(0, std::max<std::size_t>(byte, 1) - 1);
-    const auto line_start = before.rfind('\n') + 1;  // 0 without one
-    Location where;
-    if (!name.empty()) where.file = std::make_shared<SourceFile>(SourceFile{name, text});
-    where.line = static_cast<int>(std::ranges::count(before, '\n')) + 1;
-    where.column = static_cast<int>(before.size() - line_start) + 1;
+    Location where =
+        location_of(std::make_shared<SourceFile>(SourceFile{name, text}), std::max<std::size_t>(byte, 1) - 1);
+    if (name.empty()) where.file = nullptr;
     Diagnostics out;
     out.error(where, "this is not JSON: something else must stand here or before it",
               "names and texts stand in double quotes");
