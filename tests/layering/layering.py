@@ -59,7 +59,7 @@ ALLOWED = {
         'tools/plot',
     },
     'tools/api/edit': {'core/base', 'core/types', 'core/model', 'core/equations', 'core/xml', 'core/run', 'bug_interface', 'tools/api/open'},
-    'tools/api/experiment': {'core/base', 'core/model', 'core/xml', 'core/observe', 'core/run', 'tools/plot', 'tools/api/open'},
+    'tools/api/experiment': {'core/base', 'core/xml', 'core/observe', 'core/run', 'tools/plot', 'tools/api/open'},
     'tools/api/agents': {'core/base', 'core/model', 'core/engine', 'core/observe', 'core/run', 'bug_interface', 'tools/plot', 'tools/api/open'},
     'tools/api': {
         'core/base',
