@@ -44,12 +44,16 @@ CellNames arranged(const Names& all, const GroupShape& shape) {
     return {};
 }
 
-/// Carries names along the connections of a layout.
+/// Carries names along the connections of a layout in which the groups at ports have theirs.
 class Carrier {
   public:
     Carrier(const std::vector<const model::Group*>& groups,
             const std::vector<const model::Connection*>& connections, Layout& layout)
-        : groups_(groups), connections_(connections), layout_(layout) {}
+        : groups_(groups), connections_(connections), layout_(layout) {
+        for (const auto& c : layout.connections)
+            if (c.effective && c.kind == InputKind::excitatory && layout.groups[index(c.source)].names.any())
+                driven_by_port_.insert(c.target);
+    }
 
     /// Names the sources of named groups, or their targets. Returns whether there is a new name.
     bool carry(bool backwards) {
@@ -67,8 +71,8 @@ class Carrier {
         const auto& named = layout_.groups[static_cast<std::size_t>(from)];
         auto& unnamed = layout_.groups[static_cast<std::size_t>(to)];
         if (from == to || (named.names.columns.empty() && named.names.rows.empty()) || unnamed.names.any() ||
-            unnamed.shape.cells < 2 || !layout_.connections[i].effective ||
-            layout_.connections[i].kind != InputKind::excitatory ||
+            unnamed.shape.cells < 2 || (backwards && driven_by_port_.contains(to)) ||
+            !layout_.connections[i].effective || layout_.connections[i].kind != InputKind::excitatory ||
             std::max(named.shape.cells, unnamed.shape.cells) > max_cells || !is_rectangle(named.shape) ||
             !is_rectangle(unnamed.shape))
             return false;
@@ -97,6 +101,7 @@ class Carrier {
     const std::vector<const model::Group*>& groups_;
     const std::vector<const model::Connection*>& connections_;
     Layout& layout_;
+    std::set<int> driven_by_port_;  ///< they stand for what the port says, not for what they drive
 };
 
 /// The number of the group at each port of a module; -1 for none.

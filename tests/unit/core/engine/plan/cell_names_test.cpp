@@ -95,6 +95,16 @@ TEST_CASE("Cells that share a cell, or drive none, have no name") {
     CHECK_FALSE(robot.names("Partial").any());
 }
 
+TEST_CASE("Cells that a sensor drives do not have the names of what they drive") {
+    Robot robot;
+    const auto stimulus = robot.add("Stimulus", 3, 1), action = robot.add("Action", 3, 1);
+    robot.wire(robot.senses, stimulus, model::ForeachPattern{});
+    robot.wire(stimulus, action);
+    robot.wire(action, robot.wheels, each_to({{1, 1}, {2, 1}, {1, 2}}));
+    CHECK(robot.names("Action").any());
+    CHECK_FALSE(robot.names("Stimulus").any());
+}
+
 TEST_CASE("Inhibition carries no names") {
     Robot robot;
     const auto silent = robot.add("Silent", 2, 1);
