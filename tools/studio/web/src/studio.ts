@@ -8,6 +8,7 @@ import { editing } from './edit/document.svelte';
 import { endedText } from './edit/ended_text';
 import { worldFile } from './edit/world.svelte';
 import { actions } from './stores/actions.svelte';
+import { forgetScales } from './stores/activity_scales';
 import { dock } from './stores/dock.svelte';
 import { nameChanges } from './stores/follow';
 import { model } from './stores/model.svelte';
@@ -124,6 +125,7 @@ function receive(message: ServerMessage): void {
       // A change may have added sources that the server rejected before.
       if (run.status?.generation !== message.generation) actions.settle('stream'), streams.retry();
       run.status = message;
+      if (message.cycle === 0) forgetScales();
       break;
     case 'action': {
       actions.add(message, run.status?.epoch);

@@ -1,5 +1,6 @@
 // The settings of a panel, which its layout keeps.
-import { adapt, extent, type Scale } from '../draw/scale';
+import { adapt, extent, type Scale, type ScaleMode } from '../draw/scale';
+import { activityScale } from '../stores/activity_scales';
 import type { MapName } from '../draw/colours';
 import type { PanelProps } from './registry';
 
@@ -26,12 +27,19 @@ export function settings<T extends object>(props: () => Kept, defaults: T): T {
 export class PlotColours {
   scale = $state.raw<Scale>({ mode: 'auto', low: 0, high: 1 });
   private chosen = $state.raw<MapName>();
+  /** Until the user chooses another one. */
+  private mode: ScaleMode | null;
+  private readonly signed: boolean;
+  private readonly activityOf: () => string | null;
   private readonly keep: PanelProps['keep'];
 
-  /** `signed`: values below 0 get the diverging map, with 0 in its middle, unless the user chose others. */
-  constructor(props: () => Kept, scale?: Scale, private readonly signed = false) {
+  /** `signed`: values below 0 get the diverging map, with 0 in its middle, unless the user chose others. `activityOf`: the group whose activity is shown, unless it is something else. */
+  constructor(props: () => Kept, { scale, signed = false, activityOf = () => null }: { scale?: Scale; signed?: boolean; activityOf?: () => string | null } = {}) {
     const { panel, keep } = props();
+    this.signed = signed;
+    this.activityOf = activityOf;
     this.scale = (panel.scale as Scale | undefined) ?? scale ?? this.scale;
+    this.mode = panel.scale ? null : this.scale.mode;
     this.chosen = panel.map as MapName | undefined;
     this.keep = keep;
   }
@@ -44,14 +52,16 @@ export class PlotColours {
   }
   /** Lets the scale follow values, as its mode says. */
   follow(...values: ArrayLike<number>[]): void {
-    const ends = values.map(extent);
-    const { mode, low, high } = adapt(this.scale, Math.min(...ends.map((e) => e[0])), Math.max(...ends.map((e) => e[1])));
+    const ends = values.map(extent), least = Math.min(...ends.map((e) => e[0])), largest = Math.max(...ends.map((e) => e[1]));
+    const group = this.activityOf(), shared = group && (this.mode || this.scale.mode === 'expand');
+    const { mode, low, high } = shared ? activityScale(group, least, largest) : adapt({ ...this.scale, mode: this.mode ?? this.scale.mode }, least, largest);
     const limit = this.signed && mode === 'auto' && low < 0 ? Math.max(-low, high) : null;
     const next = limit === null ? { mode, low, high } : { mode, low: -limit, high: limit };
-    if (next.low !== this.scale.low || next.high !== this.scale.high) this.scale = next;
+    if (next.mode !== this.scale.mode || next.low !== this.scale.low || next.high !== this.scale.high) this.scale = next;
   }
   rescale(scale: Scale): void {
     this.scale = scale;
+    this.mode = null;
     this.keep({ scale });
   }
 }
