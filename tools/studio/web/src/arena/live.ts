@@ -73,7 +73,7 @@ export class LiveWorld {
       this.poses = block.values;
       if (frame.epoch !== this.epoch) {
         this.epoch = frame.epoch;
-        this.trails.clear();
+        for (const trail of this.trails.values()) trail.goBack(frame.cycle);
       }
       this.changed();
     });

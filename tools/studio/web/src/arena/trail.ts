@@ -5,16 +5,26 @@ export class Trail {
   x: number[] = [];
   y: number[] = [];
   trial: number[] = [];
+  private cycle: number[] = [];
 
   /** Rows of cycle, x, y and the number of the trial. */
   add(rows: number, columns: number, values: ArrayLike<number>): void {
     for (let r = 0; r < rows; r++) {
-      const x = values[r * columns + 1]!, y = values[r * columns + 2]!, trial = values[r * columns + 3]!;
+      const cycle = values[r * columns]!, x = values[r * columns + 1]!, y = values[r * columns + 2]!, trial = values[r * columns + 3]!;
       const n = this.x.length - 1;
       if (n >= 0 && this.trial[n] === trial && Math.hypot(this.x[n]! - x, this.y[n]! - y) < 0.02) continue;
-      this.x.push(x), this.y.push(y), this.trial.push(trial);
+      this.x.push(x), this.y.push(y), this.trial.push(trial), this.cycle.push(cycle);
     }
-    if (this.x.length > maxPoints) { for (const a of [this.x, this.y, this.trial]) a.splice(0, a.length - keptPoints); }
+    if (this.x.length > maxPoints) { for (const a of this.lists) a.splice(0, a.length - keptPoints); }
+  }
+
+  /** Forgets what came after a cycle, to which the run has gone back; all of it when the run begins. */
+  goBack(cycle: number): void {
+    const later = cycle ? this.cycle.findIndex((c) => c > cycle) : 0;
+    if (later >= 0) { for (const a of this.lists) a.length = later; }
+  }
+  private get lists(): number[][] {
+    return [this.x, this.y, this.trial, this.cycle];
   }
 
   /** Calls `line` with the first and the last index of each unbroken piece, and its opacity: older trials are fainter. */

@@ -24,7 +24,7 @@ const world = {
 function sources() {
   const listeners = new Map<string, Listener>();
   const subscribe = (source: string, _: string, listener: Listener) => (listeners.set(source, listener), () => void listeners.delete(source));
-  const send = (source: string, columns: number, values: number[], epoch = 1) => listeners.get(source)!({ rows: values.length / columns, columns, values } as never, { epoch } as Frame);
+  const send = (source: string, columns: number, values: number[], epoch = 1, cycle = 0) => listeners.get(source)!({ rows: values.length / columns, columns, values } as never, { epoch, cycle } as Frame);
   return { listeners, streams: { subscribe } as never, send };
 }
 
@@ -46,7 +46,7 @@ describe('a trail', () => {
 });
 
 describe('the live world', () => {
-  it('has poses, and none of what is absent; a run that begins again has no trails', () => {
+  it('has poses, and none of what is absent; a run that goes back keeps its trails up to there, and one that begins has none', () => {
     const { streams, send } = sources();
     const live = new LiveWorld();
     live.changed = vi.fn();
@@ -54,11 +54,14 @@ describe('the live world', () => {
     send('world:poses', 5, [1, 2, 0, 0.5, 2, 0, 0, 0, 0, 0]);
     expect(live.pose(0)).toEqual({ x: 1, y: 2, yaw: 0.5, resetting: true });
     expect(live.pose(1)).toBeNull();
-    send('world:trail:Bug', 4, [0, 1, 1, 1]);
-    expect(live.trails.get('Bug')!.x).toEqual([1]);
-    send('world:poses', 5, [1, 2, 0, 0.5, 1, 0, 0, 0, 0, 0], 2);
-    expect(live.trails.size).toBe(0);
-    expect(live.changed).toHaveBeenCalledTimes(3);
+    send('world:trail:Bug', 4, [1, 1, 1, 1, 2, 2, 1, 1, 3, 3, 1, 1]);
+    const { x } = live.trails.get('Bug')!, poses = [1, 2, 0, 0.5, 1, 0, 0, 0, 0, 0];
+    expect(x).toEqual([1, 2, 3]);
+    send('world:poses', 5, poses, 2, 2);
+    expect(x).toEqual([1, 2]);
+    send('world:poses', 5, poses, 3);
+    expect(x).toEqual([]);
+    expect(live.changed).toHaveBeenCalledTimes(4);
   });
   it('of the run to compare with has sources of its own, and is forgotten at the end', () => {
     const { streams, send, listeners } = sources();
