@@ -231,6 +231,21 @@ export default async function({ site, folder, context, start, open, faults, step
   assert.equal(await page.getByRole('menuitem', { name: 'Space plots' }).count(), 0);
   await page.keyboard.press('Escape');
 
+  step('tuples are drawn from cell to cell, which stay in place while names come and go, and no text is selected');
+  await find(page, 'Reactive Approach to Approach');
+  await inspector.getByLabel('Cells', { exact: true }).selectOption('chosen cells');
+  const cellOf = (side, cell) => inspector.locator(`[data-grid="${side}"] [data-cell="${cell},1"]`);
+  const below = () => cellOf('Target', 1).evaluate((c) => c.getBoundingClientRect().top - document.querySelector('[data-grid="Source"]').closest('.wiring').previousElementSibling.getBoundingClientRect().top);
+  const gridAt = await below();
+  for (const cell of [3, 4]) {
+    await cellOf('Source', cell).dragTo(cellOf('Target', cell - 1));
+    await inspector.getByText(`${cell},1 → ${cell - 1},1`).waitFor();
+    assert.equal(await below(), gridAt);
+  }
+  assert.equal(await page.evaluate(() => String(getSelection())), '');
+  await canvas.focus();
+  for (let i = 0; i < 2; i++) await page.keyboard.press('Control+z');
+
   step('tuples come from a file');
   await find(page, 'CR to Threshold CR');
   await inspector.getByLabel('Cells', { exact: true }).selectOption('chosen cells');
