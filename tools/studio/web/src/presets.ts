@@ -7,14 +7,15 @@ import { actions } from './stores/actions.svelte';
 import { problemText, type LayoutContent } from './protocol/messages';
 import { isPlot, type PanelState } from './panels/registry';
 
-type Preset = { name: string; hint: string; spaces: string[]; times: string[]; raster?: string[]; weights?: boolean; diagram?: boolean };
+/** Groups are named by their paths, or by the beginning of their names after a slash. `faint` are of small numbers. */
+type Preset = { name: string; hint: string; spaces: string[]; faint?: string[]; times: string[]; diagram?: boolean };
 
 export const presets: Preset[] = [
   { name: 'Overview', hint: 'arena, diagram, sensors and motor', spaces: ['/Light', '/Motor'], times: [] },
   { name: 'Build', hint: 'the diagram in the middle', spaces: [], times: [], diagram: true },
   { name: 'Part 1: getting started', hint: 'what the robot senses and does', spaces: ['/Red', '/Light', '/Sensor', '/Motor'], times: [] },
   { name: 'Part 2: reactive layer', hint: 'reflexes and selection', spaces: ['/US (light)', '/Approach', '/Motor'], times: ['/Approach'] },
-  { name: 'Part 3: learning', hint: 'display, CS, prototype, discrepancy', spaces: ['/Weights Display', '/CS', 'Adaptive/prototype'], times: ['Adaptive/discrepancy'] },
+  { name: 'Part 3: learning', hint: 'display, CS, prototype, discrepancy', spaces: ['/Weights Display', '/CS', 'Adaptive/prototype'], faint: ['/Weights Display', 'Adaptive/prototype'], times: ['Adaptive/discrepancy'] },
   { name: 'Part 4: memory', hint: 'collector, distance, selected, trigger', spaces: ['/Collector', '/Distance', '/Selected', '/Trigger'], times: ['Contextual/Distance'] },
 ];
 
@@ -27,7 +28,8 @@ export function applyPreset(preset: Preset): void {
   const spaces = preset.spaces.map(find).filter((g) => g !== undefined);
   if (spaces.length === 0) spaces.push(...model.groups.slice(0, 2));
   const times = preset.times.map(find).filter((g) => g !== undefined);
-  arrange([...spaces.map((g) => ({ kind: 'space', item: g.path })), ...times.map((g) => ({ kind: 'time', sources: [`mean(${g.path})`] }))]);
+  const faint = (preset.faint ?? []).map(find);
+  arrange([...spaces.map((g) => ({ kind: 'space', item: g.path, ...(faint.includes(g) && { scale: { mode: 'auto', low: 0, high: 1 } }) })), ...times.map((g) => ({ kind: 'time', sources: [`mean(${g.path})`] }))]);
   // Of the tabs below the arena, the first one that a newcomer sees says how the robot is wired.
   if (preset === presets[0] && frame.room === 'narrow') dock.open({ kind: 'diagram' });
 }
@@ -79,10 +81,15 @@ function around(large: PanelState, others: PanelState[]): void {
   const api = dock.api!, { main, width: all } = begin(large);
   const views: PanelState[] = ([{ kind: 'arena' }, { kind: 'diagram' }] as PanelState[]).filter((p) => p.kind !== large.kind && (p.kind !== 'arena' || model.world));
   if (frame.room !== 'wide') {
-    let stack = frame.small ? main : null;
-    // The names in a diagram need room.
-    const height = Math.round(api.height * (large.kind === 'diagram' ? 0.35 : 0.43));
-    for (const p of [...views.slice(0, 1), ...others, ...views.slice(1)]) stack = dock.open(p, stack ? { beside: stack, inactive: true } : { beside: main, direction: 'below', height });
+    const named = large.kind === 'diagram', half = Math.round(all / 2);
+    // The names in a diagram need room: on a small window it stands alone. Else the robot, or what is measured of it, is in sight beside the panel in question.
+    const below = { beside: main, direction: 'below' as const, height: Math.round(api.height * (named ? 0.35 : 0.43)) }, right = { beside: main, direction: 'right' as const, width: half };
+    const companions = frame.small && large.kind === 'arena' ? [...others.splice(0), ...views] : views;
+    let view = frame.small && named ? main : null;
+    for (const p of companions) view = dock.open(p, view ? { beside: view, inactive: true } : frame.small ? right : below);
+    let plot = frame.small ? main : null;
+    for (const p of others) plot = dock.open(p, plot ? { beside: plot, inactive: true } : view ? { ...right, beside: view } : below);
+    if (frame.small && frame.reading) api.getPanel(main)?.api.setSize({ height: Math.round(api.height * (named ? 0.6 : 0.55)) });
     api.getPanel(main)?.api.setActive();
     return;
   }

@@ -66,6 +66,8 @@ class Frame {
     drawers.tree = false;
     if (innerWidth < 1500) drawers.inspector = false;
   }
+  /** The height of the tutorial's panel where a small window has it below the others, which drawers leave free; 0 elsewhere. */
+  text = $state(0);
   /** Opens what was closed for the tutorial. */
   takeBack(): void {
     const { tree, inspector } = this.lent ?? {};
