@@ -120,6 +120,7 @@ export default async function({ site, folder, start, open, faults, step }) {
   await answer.waitFor();
   await reflex.getByText('You said “From all three starts”, and it is not so. Look again: the boxes of Trials, by start.').waitFor();
   await reflex.getByLabel('Mostly from the middle.').check();
+  await reflex.getByText('and it is not so').waitFor({ state: 'detached' }); // of the answer before
   await check.click();
   await reflex.getByText('You said “Mostly from the middle”: right.').waitFor();
   const line = await answer.boundingBox(), around = await tutorial.boundingBox();
@@ -224,7 +225,26 @@ export default async function({ site, folder, start, open, faults, step }) {
   for (let i = 0; i < 2; i++) await page.getByRole('button', { name: 'Step one cycle' }).click();
   await hand.getByRole('button', { name: 'Check what I have seen' }).click();
   await hand.getByText('You said “It turns to the right on the spot”: right.').waitFor();
-  assert.deepEqual(await hand.getByRole('listitem').evaluateAll((all) => all.map((l) => l.className)), Array(4).fill('right'));
+  assert.deepEqual(await hand.locator('.checks li').evaluateAll((all) => all.map((l) => l.className)), Array(4).fill('right'));
+
+  step('in a small window, what is driven stands beside the arena; names are whole, and the form of what is selected leaves the text in sight');
+  await page.setViewportSize({ width: 700, height: 600 });
+  await tutorial.locator('[data-open="0"]').click();
+  await drive.waitFor();
+  assert.ok(await page.getByRole('group', { name: 'Arena', exact: true }).isVisible());
+  await tutorial.locator('[data-open="1"]').click();
+  const box = page.locator('.svelte-flow__node', { hasText: 'Const Speed' });
+  await box.click();
+  await page.getByRole('region', { name: 'Inspector' }).waitFor();
+  await until(page, 'the form ends where the tutorial begins', () => {
+    const form = document.querySelector('aside.right').getBoundingClientRect(), text = document.querySelector('[role="group"][aria-label="Tutorial"]').getBoundingClientRect();
+    return form.bottom < text.top && form.height > 200;
+  });
+  await picture(page, 'tutorial-small');
+  await page.keyboard.press('Escape');
+  await page.setViewportSize({ width: 1400, height: 900 });
+  await tutorial.locator('[data-open="0"]').click();
+  await drive.waitFor();
 
   step('a choice of the tutorial is a parameter of the run that need not be saved; changes of the user are not dropped without asking');
   const change = async () => {
