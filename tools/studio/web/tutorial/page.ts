@@ -18,7 +18,7 @@ const panelKinds = ['space', 'time', 'raster', 'weights', 'wiring', 'camera', 'm
 
 /** Reads what a comment `<!-- studio ... -->` says: lines of a key, a colon and a value. */
 export function readSetup(text: string): Setup {
-  const setup: Setup = { system: '', world: '', set: [], clamp: [], speed: 1, seed: 1, window: 30, panels: [], diagram: '', large: '', choices: [], checks: [], say: '' };
+  const setup: Setup = { system: '', world: '', set: [], clamp: [], speed: 1, seed: 1, window: 30, panels: [], diagram: '', large: '', choices: [], checks: [], say: '', steps: [] };
   for (const line of text.split('\n').map((l) => l.trim()).filter(Boolean)) {
     const [, key, value] = /^(\w+): *(.+)$/.exec(line) ?? [];
     if (!key || !value) throw new Error(`'${line}' is not a key, a colon and a value`);
@@ -32,6 +32,7 @@ export function readSetup(text: string): Setup {
       if (!Number.isSafeInteger(setup[key]) || setup[key] < 1) throw new Error(`'${value}' is not a whole number from 1 up, for '${key}'`);
       if (key === 'window' && ![10, 30, 120, 600].includes(setup.window)) throw new Error(`'${value}' seconds are no span of a plot: 10, 30, 120 or 600`);
     } else if (key === 'say') setup.say = `${setup.say} ${value}`.trim();
+    else if (key === 'step') setup.steps.push(value);
     else if (key === 'choose') {
       const [, assignment, values] = /^(.+?) = (.+)$/.exec(value) ?? [];
       if (!assignment || !values) throw new Error(`'${value}' is not a parameter, ' = ' and values`);
@@ -87,7 +88,7 @@ function setupHtml(setup: Setup, number: number, questions: string): string {
   );
   return `<section class="setup" data-setup="${number}" aria-label="Set-up ${number + 1}"><button type="button" class="primary" data-open="${number}">Set it up</button><small>${escape(setup.system)} in ${escape(setup.world)}</small><p>${
     inline(setup.say)
-  }</p>${choices.join('')}${questions}${setup.checks.length ? checksHtml : ''}</section>\n`;
+  }</p>${setup.steps.length ? `<ol>${setup.steps.map((s) => `<li>${inline(s)}</li>`).join('')}</ol>` : ''}${choices.join('')}${questions}${setup.checks.length ? checksHtml : ''}</section>\n`;
 }
 const checksHtml = '<div class="checks"><button type="button" class="outlined" data-check disabled>Check what I have seen</button><div role="status"><ul></ul></div></div>';
 const inline = (text: string) => new Marked({ renderer: { html: ({ text }) => escape(text) } }).parseInline(text) as string;
@@ -116,6 +117,8 @@ export function makePage(id: string, markdown: string, ids: string[]): TutorialP
           page.setups.push(read);
           return setupHtml(read, number, asked.map((q) => q.html).join(''));
         }
+        const aside = /^<!-- aside: (.+) -->$/.exec(html)?.[1];
+        if (aside) return `<!--${escape(aside)}-->`;
         if (/^<!--[\s\S]*-->$/.test(html)) return '';
         if (!/^(<details>|<\/details>|<summary>[^<]*<\/summary>|\s)+$/.test(html)) throw new Error(`${id}: the HTML '${html}' is not shown in the studio`);
         folded += (html.match(/<details>/g)?.length ?? 0) - (html.match(/<\/details>/g)?.length ?? 0);
@@ -153,6 +156,8 @@ export function makePage(id: string, markdown: string, ids: string[]): TutorialP
     },
   });
   const html = marked.parse(body) as string;
-  page.html = html.replace(/<table>/g, '<div class="table" tabindex="0"><table>').replace(/<\/table>/g, '</table></div>');
+  // What is for a shell or a text editor is folded: here one has the studio.
+  const asides = html.replace(/<!--(.*?)-->\n?(<p>[\s\S]*?<\/p>)/g, '<details class="shell"><summary>$1</summary>$2</details>');
+  page.html = asides.replace(/<table>/g, '<div class="table" tabindex="0"><table>').replace(/<\/table>/g, '</table></div>');
   return page;
 }

@@ -41,6 +41,8 @@ export interface Setup {
   /** What the exercise expects to be seen. */
   checks: Check[];
   say: string;
+  /** What to do, one after the other. */
+  steps: string[];
 }
 
 /** The pattern of "Group(x,y)=value" for a group of this width and number of cells. */
@@ -56,8 +58,6 @@ export function clampPattern(clamp: string, size: (group: string) => { width: nu
 function panelOf({ kind, item, scale, key }: PanelSetup, { window, checks }: Setup): PanelState {
   if (kind === 'time') return { kind, window, sources: item.split(', ').map((s) => (model.group(s) ? `mean(${s})` : s)) };
   if (kind === 'space' && scale) return { kind, item, scale: { mode: 'manual', low: scale[0], high: scale[1] } };
-  // Cells are between 0 and 1, mostly: a scale that followed smaller values would show noise as an answer.
-  if (kind === 'space') return { kind, item, scale: { mode: 'expand', low: 0, high: 1 } };
   // A condition ends the run: there may be any number of trials until then.
   if (kind === 'trials') {
     const last = checks.find(({ hits }) => hits && hits.last < hits.trials)?.hits?.last ?? 50;

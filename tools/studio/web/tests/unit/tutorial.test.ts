@@ -42,7 +42,7 @@ describe('pages of the tutorial', () => {
     expect(() => page('![x](https://evil/x.png)')).toThrow('not a picture');
   });
   it('have a button for each comment that sets something up', () => {
-    const made = page('<!-- studio\nsystem: a.iqr\nworld: b.world\nset: P.x=1\nspeed: max\nchoose: P.y = 0 0.5\nspace: P/G\nsay: Press *Run* <now>.\n-->\n\n<!-- made by: x -->\n');
+    const made = page('<!-- studio\nsystem: a.iqr\nworld: b.world\nset: P.x=1\nspeed: max\nchoose: P.y = 0 0.5\nspace: P/G\nsay: Press *Run* <now>.\nstep: First *this*.\nstep: Then that.\n-->\n\n<!-- made by: x -->\n');
     expect(made.setups).toEqual([{
       system: 'a.iqr',
       world: 'b.world',
@@ -57,11 +57,15 @@ describe('pages of the tutorial', () => {
       choices: [{ assignment: 'P.y', values: ['0', '0.5'] }],
       checks: [],
       say: 'Press *Run* <now>.',
+      steps: ['First *this*.', 'Then that.'],
     }]);
     expect(made.html).toContain('data-open="0">Set it up</button>');
     expect(made.html).toContain('data-set="P.y=0.5" aria-label="P.y = 0.5" disabled>0.5</button>');
-    expect(made.html).toContain('Press <em>Run</em> &#60;now&#62;.');
+    expect(made.html).toContain('Press <em>Run</em> &#60;now&#62;.</p><ol><li>First <em>this</em>.</li><li>Then that.</li></ol>');
     expect(made.html).not.toContain('<!--');
+  });
+  it('fold what is for a shell or a text editor', () => {
+    expect(page('Here.\n\n<!-- aside: In a text editor -->\nCopy `it`.\n\nThere.\n').html).toContain('<p>Here.</p>\n<details class="shell"><summary>In a text editor</summary><p>Copy <code>it</code>.</p></details>\n<p>There.</p>');
   });
   it.each([
     ['system: a.iqr', 'a system and a world'],
