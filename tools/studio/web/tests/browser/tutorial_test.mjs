@@ -234,6 +234,8 @@ export default async function({ site, folder, start, open, faults, step }) {
   assert.ok(await page.getByRole('group', { name: 'Arena', exact: true }).isVisible());
   await tutorial.locator('[data-open="1"]').click();
   const box = page.locator('.svelte-flow__node', { hasText: 'Const Speed' });
+  await box.waitFor();
+  assert.deepEqual((await page.locator('.svelte-flow__node[aria-label]:not(:has(.phantom))').allInnerTexts()).filter((t) => t.includes('…')), []);
   await box.click();
   await page.getByRole('region', { name: 'Inspector' }).waitFor();
   await until(page, 'the form ends where the tutorial begins', () => {
