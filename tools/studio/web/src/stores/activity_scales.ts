@@ -10,5 +10,5 @@ export function activityScale(group: string, low: number, high: number): Scale {
   return scale;
 }
 
-/** Begins anew, with a run. */
+/** Starts again from 0 to 1, with a run. */
 export const forgetScales = (): void => widest.clear();
