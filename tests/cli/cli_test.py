@@ -19,6 +19,7 @@ import sys
 import tempfile
 import time
 import unittest
+import zlib
 
 sys.path.insert(0, str(pathlib.Path(__file__).parents[1] / "support"))
 import pictures  # noqa: E402
@@ -859,7 +860,9 @@ class Others(Cli):
         self.assertEqual(self.forage(*figure, "--plot-format", "pdf", "--width", 180).stdout, "figure.pdf\n")
         pdf = (self.here / "figure.pdf").read_bytes()
         self.assertIn(b"/FontFile", pdf)
-        width = float(re.search(rb"/MediaBox \[ ?0 0 ([0-9.]+)", pdf)[1])
+        # From 1.18 on, cairo packs the page's description.
+        unpacked = [zlib.decompressobj().decompress(stream) for stream in re.findall(rb"stream\r?\n(x.*?)endstream", pdf, re.DOTALL)]
+        width = float(re.search(rb"/MediaBox \[ ?0 0 ([0-9.]+)", pdf + b"".join(unpacked))[1])
         self.assertAlmostEqual(width, 180 / 25.4 * 72, delta=1)
         self.forage(*figure, "--width", 180)
         png = (self.here / "figure.png").read_bytes()
@@ -960,6 +963,8 @@ class Others(Cli):
         for command in commands:
             if command.startswith("forage new") and command in made:
                 continue  # it does not overwrite what it made
+            if ".mp4" in command and not shutil.which("ffmpeg"):
+                continue
             made.add(command)
             with self.subTest(command):
                 done = subprocess.run([FORAGE, *shlex.split(command)[1:]], cwd=self.here, capture_output=True, text=True, timeout=600)

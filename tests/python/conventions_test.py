@@ -52,7 +52,7 @@ def test_signatures_have_names_and_defaults():
         (lambda run: forage.open(REACTIVE, sed=1), "open() has no argument sed; did you mean seed?"),
         (lambda run: forage.open(REACTIVE, WORLD), "open() takes 1 positional argument, not 2"),
         (lambda run: forage.open(REACTIVE, seed=1.5), "open(): seed is an integer, not 1.5"),
-        (lambda run: forage.open(REACTIVE, seed=numpy.float32(1.5)), "open(): seed is an integer, not 1.5"),
+        (lambda run: forage.open(REACTIVE, seed=numpy.float32(1.5)), f"open(): seed is an integer, not {numpy.float32(1.5)!r}"),
         (lambda run: forage.open(REACTIVE, seed=numpy.array(1.5)), "open(): seed is an integer, not array(1.5)"),
         (lambda run: forage.open(REACTIVE, seed=numpy.zeros(3)), "open(): seed is an integer, not array([0., 0., 0.])"),
         (lambda run: forage.open(REACTIVE, seed=-1), "open(): seed cannot be -1"),

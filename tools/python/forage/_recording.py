@@ -46,7 +46,7 @@ class Recording:
     @property
     def seconds(self) -> NDArray[numpy.float64]:
         """The time of each row, in seconds of the world since the start: an array of shape (rows,)."""
-        return self.cycles * self.seconds_per_cycle
+        return self.cycles.astype(numpy.float64) * self.seconds_per_cycle
 
     @property
     def shape(self) -> tuple[int, ...]:

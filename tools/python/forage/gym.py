@@ -518,7 +518,7 @@ class BugVectorEnv(_Kept, VectorEnv):  # type: ignore[misc]
         """What the robots have sensed by the end of the last step: a row per environment."""
         self.envs = tuple(_One(self, i) for i in range(num_envs))
         """The environments, each with observation, run, split() and render() as a BugEnv has them."""
-        self._ended = numpy.zeros(num_envs, bool)
+        self._ended: _Flags = numpy.zeros(num_envs, bool)
 
     def __getstate__(self) -> dict[str, typing.Any]:
         return {**super().__getstate__(), "envs": [{name: value for name, value in vars(one).items() if name != "_several"} for one in self.envs]}
@@ -589,9 +589,9 @@ class BugVectorEnv(_Kept, VectorEnv):  # type: ignore[misc]
         self.observations, rewards, terminated, truncated, reached = self._use.step(actions)
         begun, self._ended = self._ended, terminated | truncated  # also when the function of the reward raises
         if self._reward is not None:
-            for one, there in zip(self.envs, reached.tolist()):
-                one.reached_target = there
-            rewards[:] = [0.0 if first else _number(self._reward(one)) for one, first in zip(self.envs, begun.tolist())]
+            for one, there in zip(self.envs, reached):
+                one.reached_target = bool(there)
+            rewards[:] = [0.0 if first else _number(self._reward(one)) for one, first in zip(self.envs, begun)]
         return self.observations, rewards, terminated, truncated, {"reached_target": reached, "_reached_target": numpy.ones(self.num_envs, bool)}
 
     def render(self) -> tuple[typing.Any, ...] | None:
