@@ -359,6 +359,7 @@ class Run(Cli):
             self.skipTest(f"no terminal to be had: {error}")
         if pid == 0:
             os.chdir(self.here)
+            os.environ["TERM"] = "xterm"
             os.execv(FORAGE, [FORAGE, "run", SYSTEM, "--world", WORLD, "--seconds", "2", "--realtime"])
         seen = b""
         try:
