@@ -6,7 +6,7 @@ const inSteps = (v: number, step: number) => Math.round(v / step) * step + 0;
 /** A start pose in words, so coarse that starts that differ by noise fall together. */
 const startText = ([x, y, yaw]: Trial['start']): string => `${inSteps(x, 0.1).toFixed(1)}, ${inSteps(y, 0.1).toFixed(1)} m, ${inSteps((yaw * 180) / Math.PI, 10)}°`;
 
-/** The trials by their start poses, in the order in which these came first; more than `most` different ones are one row. */
+/** The trials by their start poses, from left to right as the arena shows them; more than `most` different ones are one row. */
 export function byStart(trials: Trial[], most = 12): { start: string; trials: Trial[] }[] {
   const rows = new Map<string, Trial[]>();
   for (const t of trials) {
@@ -15,7 +15,8 @@ export function byStart(trials: Trial[], most = 12): { start: string; trials: Tr
     else rows.set(start, [t]);
   }
   if (rows.size > most) return [{ start: 'all starts', trials }];
-  return [...rows].map(([start, some]) => ({ start, trials: some }));
+  const left = (some: Trial[]) => some[0]!.start[0];
+  return [...rows].map(([start, some]) => ({ start, trials: some })).sort((a, b) => left(a.trials) - left(b.trials));
 }
 
 /** An action, and the course of the run in which it was done. */

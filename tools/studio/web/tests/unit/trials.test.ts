@@ -5,8 +5,8 @@ import type { Trial } from '../../src/protocol/messages';
 const trial = (number: number, reached: boolean, start: [number, number, number] = [0, 0, 0]): Trial => ({ number, seconds: 1, first_cycle: 0, cycles: 60, reached_target: reached, start, end: start, smallest_distance: 1 });
 
 it('trials stand by their starts, and random starts in one row', () => {
-  const some = [trial(1, true), trial(2, false, [1, 0, Math.PI / 2]), trial(3, true, [-0.001, 0, 0.02])];
-  expect(byStart(some).map((r) => [r.start, r.trials.map((t) => t.number)])).toEqual([['0.0, 0.0 m, 0°', [1, 3]], ['1.0, 0.0 m, 90°', [2]]]);
+  const some = [trial(1, true), trial(2, false, [-1, 0, Math.PI / 2]), trial(3, true, [-0.001, 0, 0.02])];
+  expect(byStart(some).map((r) => [r.start, r.trials.map((t) => t.number)])).toEqual([['-1.0, 0.0 m, 90°', [2]], ['0.0, 0.0 m, 0°', [1, 3]]]);
   expect(byStart(some, 1)).toHaveLength(1);
 });
 
