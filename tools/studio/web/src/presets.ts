@@ -39,7 +39,11 @@ let tutorial: PanelState = { kind: 'tutorial' };
 
 /** Opens the tutorial at the left, or below on a small window: at a part of it, or where it was. */
 export function openTutorial(page?: string): void {
-  if (page) tutorial = { kind: 'tutorial', page } as PanelState;
+  if (page) {
+    tutorial = { kind: 'tutorial', page } as PanelState;
+    const other = dock.api?.panels.find((p) => kindOf(p) === 'tutorial' && (p.params as PanelState).page !== page);
+    if (other) dock.api!.removePanel(other);
+  }
   flushSync(() => frame.lend());
   dock.fit();
   dock.openTutorial(tutorial);

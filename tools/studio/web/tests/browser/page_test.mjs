@@ -103,7 +103,7 @@ export default async function({ site, start, open, faults, step }) {
     const c = document.querySelector('[aria-label="Space plot of Bug/Motor"] canvas.heat');
     if (!c || c.width !== 9) return false;
     const d = c.getContext('2d').getImageData(0, 4, 2, 1).data;
-    return d[0] > 200 && d[4] < 100; // yellow, then dark blue
+    return d[1] > 100 && d[5] < 50; // yellow or green, as the scale keeps what the motor was before; then dark blue
   });
   await page.keyboard.press('Control+k');
   await page.keyboard.type('drive');

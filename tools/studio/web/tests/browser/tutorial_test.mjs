@@ -331,6 +331,13 @@ export default async function({ site, folder, start, open, faults, step }) {
   await page.reload();
   await tutorial.getByRole('heading', { name: 'Tutorial 3: the adaptive layer' }).waitFor();
 
+  step('an address that names an exercise sets it up, and shows its part');
+  const address = new URL(page.url());
+  address.searchParams.set('exercise', '2-reactive-layer:1');
+  await page.goto(address.href);
+  await tutorial.getByRole('heading', { name: 'Tutorial 2: the reactive layer' }).waitFor();
+  await page.getByRole('button', { name: /Reactive foraging/ }).first().waitFor();
+
   step('axe finds no fault of accessibility, light and dark');
   for (const scheme of ['light', 'dark']) {
     await page.emulateMedia({ colorScheme: scheme });
