@@ -147,13 +147,15 @@ export default async function({ site, start, open, faults, step }) {
     await page.getByRole('button', { name: 'Pause', exact: true }).click();
   }
 
-  step('panels of groups that the system does not have are left out of a kept arrangement');
-  await page.evaluate(() => {
-    for (const key of Object.keys(localStorage).filter((k) => k.startsWith('layout'))) localStorage[key] = localStorage[key].replaceAll('Bug/Light', 'Bug/Gone');
-  });
-  await page.reload();
-  await page.locator('.uplot canvas').first().waitFor();
-  assert.ok(!(await page.locator('.dv-tab').allTextContents()).some((t) => t.includes('Bug/Gone')));
+  if (!site) { // a page that is loaded again begins another session there
+    step('panels of groups that the system does not have are left out of a kept arrangement');
+    await page.evaluate(() => {
+      for (const key of Object.keys(localStorage).filter((k) => k.startsWith('layout'))) localStorage[key] = localStorage[key].replaceAll('Bug/Light', 'Bug/Gone');
+    });
+    await page.reload();
+    await page.locator('.uplot canvas').first().waitFor();
+    assert.ok(!(await page.locator('.dv-tab').allTextContents()).some((t) => t.includes('Bug/Gone')));
+  }
 
   step('stop: back to cycle 0');
   await page.getByRole('button', { name: 'Stop', exact: true }).click();
