@@ -46,6 +46,8 @@ class Recording:
     @property
     def seconds(self) -> NDArray[numpy.float64]:
         """The time of each row, in seconds of the world since the start: an array of shape (rows,)."""
+        import numpy
+
         return self.cycles.astype(numpy.float64) * self.seconds_per_cycle
 
     @property

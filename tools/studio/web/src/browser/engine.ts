@@ -77,7 +77,7 @@ async function load(): Promise<Engine> {
   return engine;
 }
 
-/** Emscripten keeps a file that another one replaces, for ever: it is found again when the other one is deleted. */
+/** Emscripten keeps a file that another one replaces, for ever: it is found again when the new one is deleted. */
 function forgetReplaced(files: Engine['FS']): void {
   const { rename } = files;
   files.rename = (from, to) => {
