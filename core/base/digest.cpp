@@ -8,12 +8,6 @@
 
 namespace forage {
 
-std::uint64_t fnv1a(std::string_view text) {
-    std::uint64_t hash = 0xcbf29ce484222325u;
-    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    return hash;
-}
-
 std::string digest(std::string_view text) { return fmt::format("{:016x}", fnv1a(text)); }
 
 std::string sha256(std::string_view text) {
