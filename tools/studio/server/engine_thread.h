@@ -1,13 +1,15 @@
 // A thread that runs a session. Other threads give it jobs.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <functional>
-#include <mutex>
 #include <thread>
 #include <utility>
-#include <vector>
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 
 #include "tools/studio/server/session.h"
 
@@ -18,49 +20,31 @@ class EngineThread {
   public:
     using Job = std::function<void(Session&)>;
 
-    explicit EngineThread(Session& session) : session_(session), thread_([this] { work(); }) {}
+    explicit EngineThread(Session& session)
+        : session_(session), thread_([this] { work_after(0), io_.run(); }) {}
     ~EngineThread() {
-        {
-            const std::lock_guard lock(mutex_);
-            ends_ = true;
-        }
-        wake_.notify_one();
+        io_.stop();
         thread_.join();
     }
     void post(Job job) {
-        {
-            const std::lock_guard lock(mutex_);
-            jobs_.push_back(std::move(job));
-        }
-        wake_.notify_one();
+        boost::asio::post(io_, [this, job = std::move(job)] {
+            job(session_);
+            work_after(0);
+        });
     }
 
   private:
-    void work() {
-        double wait = 0;
-        while (true) {
-            std::vector<Job> jobs;
-            {
-                std::unique_lock lock(mutex_);
-                const auto called = [&] { return ends_ || !jobs_.empty(); };
-                if (wait > 3600)
-                    wake_.wait(lock, called);
-                else if (wait > 0)
-                    wake_.wait_for(lock, std::chrono::duration<double>(wait), called);
-                if (ends_) return;
-                jobs.swap(jobs_);
-            }
-            for (const Job& job : jobs) job(session_);
-            wait = session_.work(
-                std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count());
-        }
+    void work_after(double seconds) {
+        const std::chrono::duration<double> wait(std::min(seconds, 3600.));
+        timer_.expires_after(std::chrono::duration_cast<std::chrono::steady_clock::duration>(wait));
+        timer_.async_wait([this](boost::system::error_code stopped) {
+            if (!stopped) work_after(session_.work(clock_now()));
+        });
     }
 
     Session& session_;
-    std::mutex mutex_;
-    std::condition_variable wake_;
-    std::vector<Job> jobs_;
-    bool ends_ = false;
+    boost::asio::io_context io_{1};
+    boost::asio::steady_timer timer_{io_};
     std::thread thread_;
 };
 
