@@ -1,16 +1,13 @@
 // The studio in a browser's worker: a session without a server. web/src/browser/worker.ts calls these
 // functions, and one page talks to it.
 #include <array>
-#include <chrono>
 #include <cstdlib>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include <emscripten.h>
 
-#include "core/run/input_error.h"
-#include "tools/studio/server/requests.h"
+#include "core/run/run_spec.h"
 #include "tools/studio/server/session.h"
 
 // JavaScript.
@@ -48,10 +45,6 @@ std::string picture_address(const std::string& what, const std::string&) {
     return address.data();
 }
 
-double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
 }  // namespace
 
 extern "C" {
@@ -79,10 +72,9 @@ EMSCRIPTEN_KEEPALIVE const char* forage_open(const char* system, const char* wor
 
 /// Executes a message of the page.
 EMSCRIPTEN_KEEPALIVE void forage_receive(const char* message) {
-    if (const auto refused = studio::refusal_of(message)) return send(page, false, *refused);
     session->message(page, message);
 }
 
 /// Runs the cycles that are due. Returns the seconds until it should be called again.
-EMSCRIPTEN_KEEPALIVE double forage_work() { return session->work(now()); }
+EMSCRIPTEN_KEEPALIVE double forage_work() { return session->work(studio::clock_now()); }
 }
