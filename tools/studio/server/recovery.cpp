@@ -7,9 +7,11 @@
 #include <stdexcept>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 #include <sys/stat.h>
 
 #include "core/base/digest.h"
+#include "core/base/text_file.h"
 #include "core/run/checkpoint_file.h"
 
 namespace forage::studio {
@@ -44,6 +46,20 @@ std::string state_folder(const std::string& inside) {
     }
     make_directory(out.string());
     return out.string();
+}
+
+double read_save_interval() {
+    try {
+        const double kept =
+            nlohmann::json::parse(read_file(state_home() + "/forage/settings.json")).at("save_interval");
+        if (kept >= min_save_interval && kept <= max_save_interval) return kept;
+    } catch (const std::exception&) {  // it was never written
+    }
+    return 20;
+}
+
+void write_save_interval(double seconds) {
+    write_file(state_folder() + "/settings.json", nlohmann::json{{"save_interval", seconds}}.dump() + "\n");
 }
 
 RecoveryFiles::RecoveryFiles(const std::string& system) {

@@ -20,6 +20,14 @@ std::string state_home();
 /// path. Throws std::runtime_error.
 std::string state_folder(const std::string& inside = {});
 
+/// How often a session that runs may be saved, s; a crash is to lose a minute at most.
+constexpr double min_save_interval = 5, max_save_interval = 60;
+
+/// How often the user wants it, for all studios, in $XDG_STATE_HOME/forage/settings.json; 20 s by default.
+double read_save_interval();
+/// Throws std::runtime_error where the file cannot be written.
+void write_save_interval(double seconds);
+
 /// The folder of a system in the user's folder of states ($XDG_STATE_HOME, or ~/.local/state), with the file
 /// of the session that runs and that of one which was killed. Studios of one system have a folder each.
 class RecoveryFiles {

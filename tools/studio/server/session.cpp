@@ -393,7 +393,7 @@ double Session::work(double now) {
         pages.status_at = now, pages.status_due = false;
     }
     if (recovery.files && recovery.version != live.version &&
-        now - recovery.saved_at >= (live.pace.running ? recovery.settings.save_interval : save_rest))
+        now - recovery.saved_at >= (live.pace.running ? recovery.save_interval : save_rest))
         save(), recovery.saved_at = now;
     // All pages get their frames at the same time, so that what several of them watch is drawn once.
     bool waits = false, sent = false;

@@ -19,7 +19,6 @@
 #include "tools/studio/server/live_run.h"
 #include "tools/studio/server/pages.h"
 #include "tools/studio/server/recovery.h"
-#include "tools/studio/server/settings.h"
 
 namespace forage::studio {
 
@@ -33,7 +32,7 @@ struct RecoveryState {
     std::optional<std::uint64_t> version;  ///< of the run when it was saved
     double saved_at = -1e9;
     std::size_t length = 0;  ///< bytes that were saved last; the next ones are about as many
-    Settings settings = read_settings();
+    double save_interval = read_save_interval();
 };
 
 /// An action as pages log it.

@@ -14,7 +14,6 @@
 #include "tools/studio/server/commands/shared.h"
 #include "tools/studio/server/page_paths.h"
 #include "tools/studio/server/recent.h"
-#include "tools/studio/server/settings.h"
 
 namespace forage::studio {
 namespace {
@@ -139,12 +138,10 @@ json export_process_file(Session& s, const Request& r) {
 
 json change_settings(Session& s, const Request& r) {
     if (r.has("save_interval")) {
-        Settings next = s.recovery.settings;
-        next.save_interval = r.number("save_interval");
-        write_settings(next);
-        s.recovery.settings = next;
+        write_save_interval(r.number("save_interval"));
+        s.recovery.save_interval = r.number("save_interval");
     }
-    return {{"save_interval", s.recovery.settings.save_interval}};
+    return {{"save_interval", s.recovery.save_interval}};
 }
 
 /// The folder of a file when a page may write there, else the working directory.
@@ -265,7 +262,8 @@ std::vector<Command> document_commands() {
          .doc = "Changes and returns the settings in `$XDG_STATE_HOME/forage/settings.json`, for the studios "
                 "that "
                 "start from now on.",
-         .arguments = {optional("save_interval", number(5, 60), nullptr, "in s")},
+         .arguments = {optional("save_interval", number(min_save_interval, max_save_interval), nullptr,
+                                "in s")},
          .result = "{ save_interval: number }",
          .apply = change_settings},
         {.name = "files",
