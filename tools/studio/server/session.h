@@ -91,9 +91,6 @@ class Session {
     std::function<std::string(const std::string& what, const std::string& version)> picture_address;
 
     Run& run() { return *live.run; }
-    const RunInput& input() const { return edited.input; }
-    bool running() const { return live.pace.running; }
-    std::uint64_t generation() const { return edited.generation; }
 
     // ---- for commands ----
     LiveRun live;

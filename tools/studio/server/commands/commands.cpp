@@ -50,7 +50,7 @@ json execute_command(Session& session, int client, json message) {
     json arguments =
         checked(std::move(message), arguments_of(command), fmt::format("command '{}'", command.name));
     if (const auto seen = arguments.find("generation"); seen != arguments.end()) {
-        if (seen->get<std::uint64_t>() != session.generation())
+        if (seen->get<std::uint64_t>() != session.edited.generation)
             throw Conflict("the run has changed since: another page has touched it");
         arguments.erase(seen);
     }

@@ -764,10 +764,10 @@ TEST_CASE("an edit keeps what a run waits for, or pauses it when that is gone") 
         return "";
     };
     e.edit({{{"do", "remove"}, {"ids", {id("Reactive Layer", "US")}}}});
-    CHECK(e.session->running());
+    CHECK(e.session->live.pace.running);
     e.session->work(101);
     e.edit({{{"do", "remove"}, {"ids", {id("Selection", "Motor In")}}}});
-    CHECK_FALSE(e.session->running());
+    CHECK_FALSE(e.session->live.pace.running);
     CHECK(e.ask({{"command", "run_until"}, {"condition", "cycle >= 0"}})["ok"] == false);
 }
 
@@ -787,7 +787,7 @@ TEST_CASE("a backup is listed under its file, opened, and not written") {
                                         {"time", "1999-12-31T23:59:58"}}));
     CHECK(e.last["document"]["backup_of"].is_null());
 
-    e.result({{"command", "open"}, {"system", older}, {"world", e.session->input().world}});
+    e.result({{"command", "open"}, {"system", older}, {"world", e.session->edited.input.world}});
     CHECK(e.last["document"]["backup_of"] == e.file);
     e.edit({{{"do", "rename"}, {"id", "selection.ur"}, {"name", "Other"}}});
     CHECK(e.ask({{"command", "save"}}).dump().find("is a backup and stays as it is") != std::string::npos);
@@ -808,7 +808,7 @@ TEST_CASE("a backup with mistakes is opened to be corrected") {
     Editor e;
     const std::string backup = e.file + ",1999-12-31_23-59-58";
     std::ofstream(backup) << "<System";
-    e.result({{"command", "open"}, {"system", backup}, {"world", e.session->input().world}});
+    e.result({{"command", "open"}, {"system", backup}, {"world", e.session->edited.input.world}});
     CHECK(e.last["document"]["opened_with_mistakes"] == true);
 }
 
@@ -1084,7 +1084,7 @@ TEST_CASE("every page knows a system that is opened from an edit of the one befo
     e.result({{"command", "save"}, {"file", (e.folder / "copy.iqr").string()}});
     CHECK_FALSE(opened());
     for (int i = 0; i < 2; ++i) {  // the same ids, and then the same file
-        e.result({{"command", "open"}, {"system", e.file}, {"world", e.session->input().world}});
+        e.result({{"command", "open"}, {"system", e.file}, {"world", e.session->edited.input.world}});
         CHECK(opened());
     }
     for (int i = 0; i < 2; ++i) {  // the same name
@@ -1399,7 +1399,7 @@ TEST_CASE("edits of a world that were not saved survive the death of the program
     const auto before = e.result({{"command", "world_document"}});
     CHECK(before["items"].dump().find("#123456") != std::string::npos);
     e.session->work(1031);  // it keeps what has changed, and dies without end()
-    RunInput input = e.session->input();
+    RunInput input = e.session->edited.input;
     input.text.clear();
     e.session.emplace(input, [](int, bool, const std::string&) {});
     e.session->keep();

@@ -204,9 +204,9 @@ TEST_CASE("a run of some trials pauses at the end of the last of them") {
     Fixture f;
     f.result({{"command", "speed"}, {"mode", "free"}});
     f.result({{"command", "run_until"}, {"trials", 2}});
-    for (double now = 100; f.session.running() && now < 1e5; ++now) f.session.work(now);
+    for (double now = 100; f.session.live.pace.running && now < 1e5; ++now) f.session.work(now);
     CHECK(f.session.run().environment()->trials(0).size() == 2);
-    CHECK_FALSE(f.session.running());
+    CHECK_FALSE(f.session.live.pace.running);
 }
 
 TEST_CASE("hits are counted among all trials, the last and those since a cycle, also after going back") {
@@ -215,7 +215,7 @@ TEST_CASE("hits are counted among all trials, the last and those since a cycle, 
     f.result({{"command", "speed"}, {"mode", "free"}});
     CHECK(f.result({{"command", "learning"}})["all"]["share"] == nullptr);
     f.result({{"command", "run_until"}, {"trials", 4}});
-    for (double now = 100; f.session.running() && now < 1e5; ++now) f.session.work(now);
+    for (double now = 100; f.session.live.pace.running && now < 1e5; ++now) f.session.work(now);
     const json all = f.result({{"command", "trials"}})["trials"];
     REQUIRE(all.size() == 4);
     const auto third = all[2]["first_cycle"].get<std::uint64_t>();
@@ -239,7 +239,7 @@ TEST_CASE("a run pauses when a condition holds, as that of the command line does
     f.result({{"command", "speed"}, {"mode", "free"}});
     f.result({{"command", "run_until"}, {"trials", 3}, {"condition", "trial 2 and cycle > 40"}});
     const auto go = [&] {
-        for (double now = 100; f.session.running() && now < 1e5; ++now) f.session.work(now);
+        for (double now = 100; f.session.live.pace.running && now < 1e5; ++now) f.session.work(now);
         return f.session.run().cycle();
     };
     const auto run = open_run(Fixture::input()).run;
@@ -252,7 +252,7 @@ TEST_CASE("a run pauses when a condition holds, as that of the command line does
     for (const json& wrong :
          {json{{"command", "run_until"}}, json{{"command", "run_until"}, {"condition", "trail 2"}}})
         CHECK(f.ask(wrong)["ok"] == false);
-    CHECK_FALSE(f.session.running());
+    CHECK_FALSE(f.session.live.pace.running);
 }
 
 TEST_CASE("a run of some seconds pauses after them, from where it is") {
@@ -261,7 +261,7 @@ TEST_CASE("a run of some seconds pauses after them, from where it is") {
     f.result({{"command", "speed"}, {"mode", "free"}});
     for (const std::uint64_t cycles : {50U, 100U}) {
         f.result({{"command", "run_until"}, {"seconds", 50 * f.session.run().seconds_per_cycle()}});
-        for (double now = 100; f.session.running() && now < 1e5; ++now) f.session.work(now);
+        for (double now = 100; f.session.live.pace.running && now < 1e5; ++now) f.session.work(now);
         CHECK(f.session.run().cycle() == cycles);
     }
     std::vector<std::pair<json, json>> scripts;
@@ -388,7 +388,7 @@ TEST_CASE("a robot and an object are moved to free places only") {
     const Pose2 pose = f.session.run().environment()->pose(0);
     CHECK(pose.x == Approx(0.5));
     CHECK(pose.yaw == Approx(1));
-    const auto before = f.session.generation();
+    const auto before = f.session.edited.generation;
     CHECK(f.ask({{"command", "move"}, {"robot", robot}, {"x", 1e5}, {"y", 0}})["ok"] == false);
     f.session.connect(1);
     const json solids = f.messages[1][2]["solids"];
@@ -400,7 +400,7 @@ TEST_CASE("a robot and an object are moved to free places only") {
           false);
     CHECK(f.session.run().environment()->pose(0).x == Approx(0.5));
     CHECK(f.ask({{"command", "move"}, {"robot", "Nobug"}, {"x", 0}, {"y", 0}})["ok"] == false);
-    CHECK(f.session.generation() == before);
+    CHECK(f.session.edited.generation == before);
 }
 
 TEST_CASE("requests come from here, and pages begin with the token") {
@@ -662,11 +662,11 @@ TEST_CASE("the open system moves to another world, with its edits") {
     f.result({{"command", "step"}});
     f.result({{"command", "world_open"}, {"world", world}});
     CHECK(f.session.run().cycle() == 0);
-    CHECK(f.session.input().world == world);
+    CHECK(f.session.edited.input.world == world);
     CHECK(std::get<double>(f.session.run().parameter("Bug/Light.threshold")) == 0.5);
     CHECK(f.result({{"command", "world_document"}})["file"] == world);
     CHECK(f.ask({{"command", "world_open"}, {"world", "/no.world"}})["ok"] == false);
-    CHECK(f.session.input().world == world);
+    CHECK(f.session.edited.input.world == world);
 }
 
 TEST_CASE("the time between two savings of a session is set, and holds for the next studio") {
@@ -944,7 +944,7 @@ TEST_CASE("a cycle that cannot be computed is noted however it was asked for") {
     const auto begin = [](Fixture& f) { f.session.run().add(std::make_unique<Failing>()); };
     const auto check = [](Fixture& f) {
         CHECK(f.session.live.failed == "cycle 5 is cursed");
-        CHECK(!f.session.running());
+        CHECK(!f.session.live.pace.running);
         CHECK(f.ask({{"command", "run"}})["ok"] == false);
         CHECK(f.result({{"command", "seek"}, {"cycle", 0}})["cycle"] == 0);
         CHECK(f.session.live.failed.empty());
@@ -960,7 +960,7 @@ TEST_CASE("a cycle that cannot be computed is noted however it was asked for") {
         begin(f);
         f.result({{"command", "speed"}, {"mode", "free"}});
         f.result({{"command", "run"}});
-        for (double now = 1; f.session.running(); ++now) f.session.work(now);
+        for (double now = 1; f.session.live.pace.running; ++now) f.session.work(now);
         check(f);
     }
     {
