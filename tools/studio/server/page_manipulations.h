@@ -2,7 +2,8 @@
 #pragma once
 
 #include <map>
-#include <memory>
+#include <utility>
+#include <vector>
 
 #include "core/observe/manipulation.h"
 
@@ -32,24 +33,14 @@ class PageManipulations final : public Observer {
         for (const auto& [group, manipulation] : groups_) manipulation.declare(demand);
     }
     void checkpoint(Archive& archive) override {
-        std::uint64_t count = groups_.size();
-        archive(count);
-        if (!archive.loading()) {
-            for (auto& [group, manipulation] : groups_) {
-                Settings s = manipulation.settings();
-                archive(s);
-                manipulation.checkpoint(archive);
-            }
-            return;
+        std::vector<Settings> all;
+        for (const auto& [group, manipulation] : groups_) all.push_back(manipulation.settings());
+        archive(all);
+        if (archive.loading()) {
+            groups_.clear();
+            for (auto& settings : all) put(std::move(settings));
         }
-        groups_.clear();
-        for (std::uint64_t i = 0; i < count; ++i) {
-            Settings s;
-            archive(s);
-            observe::Manipulation loaded(s);
-            loaded.checkpoint(archive);
-            groups_.insert_or_assign(s.group, std::move(loaded));
-        }
+        for (auto& [group, manipulation] : groups_) manipulation.checkpoint(archive);
     }
 
   private:

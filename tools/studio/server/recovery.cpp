@@ -126,13 +126,10 @@ void archive_input(Archive& archive, RunInput& input) {
         if (!path.empty()) path = fs::absolute(path).string();
     };
     const auto expressions = [&](std::vector<model::Expression>& all) {
-        std::uint64_t count = all.size();
-        archive(count);
-        if (archive.loading()) all.clear();
-        for (std::uint64_t i = 0; i < count; ++i) {
-            if (archive.loading()) all.emplace_back();
-            archive(all[i].text);
-        }
+        auto texts = collected(all, &model::Expression::text);
+        archive(texts);
+        all.clear();
+        for (auto& text : texts) all.push_back({std::move(text)});
     };
     if (!archive.loading()) {
         absolute(input.system), absolute(input.world), absolute(input.replay);
