@@ -22,11 +22,7 @@ std::optional<Content> find_asset(const std::string& path) {
     constexpr std::pair<std::string_view, const char*> types[] = {{".html", "text/html; charset=utf-8"},
                                                                   {".js", "text/javascript; charset=utf-8"},
                                                                   {".css", "text/css; charset=utf-8"},
-                                                                  {".svg", "image/svg+xml"},
-                                                                  {".png", "image/png"},
-                                                                  {".json", "application/json"},
-                                                                  {".woff2", "font/woff2"},
-                                                                  {".md", "text/markdown; charset=utf-8"}};
+                                                                  {".png", "image/png"}};
     const char* type = "application/octet-stream";
     for (const auto& [ending, media] : types)
         if (std::string_view(found->path).ends_with(ending)) type = media;
