@@ -1,14 +1,7 @@
 // Keys for panels: from part to part of the window, and what moves, sorts and sizes a panel.
 import type { DockviewGroupPanel, IDockviewPanel } from 'dockview-core';
 import { dock } from '../stores/dock.svelte';
-import { focusTab, move, reorder, resize, type Side } from '../stores/moves';
-
-const arrows: Record<string, { side: Side; x: -1 | 0 | 1; y: -1 | 0 | 1 }> = {
-  ArrowLeft: { side: 'left', x: -1, y: 0 },
-  ArrowRight: { side: 'right', x: 1, y: 0 },
-  ArrowUp: { side: 'above', x: 0, y: -1 },
-  ArrowDown: { side: 'below', x: 0, y: 1 },
-};
+import { allSides, focusTab, move, reorder, resize, sides } from '../stores/moves';
 
 /** The panel of a tab, or of the stack whose header an element belongs to. */
 export function panelOfTab(element: Element): IDockviewPanel | undefined {
@@ -45,14 +38,14 @@ function toPart(by: -1 | 1): void {
 export function panelKey(e: KeyboardEvent): boolean {
   const target = e.target as Element, panel = dock.api?.activePanel;
   if (target.closest?.('dialog, [role=menu]')) return false;
-  const control = e.ctrlKey || e.metaKey, arrow = arrows[e.key];
+  const control = e.ctrlKey || e.metaKey, side = allSides.find((s) => sides[s].key === e.key);
   if (e.key === 'F6' && !control && !e.altKey) toPart(e.shiftKey ? -1 : 1);
-  else if (!arrow) return false;
-  else if (e.altKey && e.shiftKey && !control && panel && !target.closest?.('input:not([type=range]):not([type=checkbox]), textarea, select, [contenteditable=true]')) resize(panel, arrow.x, arrow.y);
+  else if (!side) return false;
+  else if (e.altKey && e.shiftKey && !control && panel && !target.closest?.('input:not([type=range]):not([type=checkbox]), textarea, select, [contenteditable=true]')) resize(panel, side);
   else if (control && !e.altKey && target.closest?.('.dv-tab')) {
-    const own = panelOfTab(target)!;
-    if (e.shiftKey) move(own, arrow.side);
-    else if (arrow.x) reorder(own, arrow.x);
+    const own = panelOfTab(target)!, [x] = sides[side].step;
+    if (e.shiftKey) move(own, side);
+    else if (x) reorder(own, x);
     else return false;
   } else return false;
   return true;

@@ -5,11 +5,9 @@ import { dock } from '../stores/dock.svelte';
 import type { PanelState } from '../panels/registry';
 import { figureDialog } from './figure_dialog.svelte';
 import type { Found } from './finder';
-import { canMove, close, closeOthers, float, floats, join, maximize, move, reorder, resize, shares, split, unfloat, type Side } from '../stores/moves';
+import { allSides, canMove, close, closeOthers, float, floats, join, maximize, move, reorder, resize, shares, sides, split, unfloat } from '../stores/moves';
 
 export const figureWords = 'picture image screenshot save print graph plot';
-
-const ways: [Side, string][] = [['left', '←'], ['right', '→'], ['above', '↑'], ['below', '↓']];
 
 /** The other stacks, by the titles of their tabs. */
 const others = (p: IDockviewPanel) =>
@@ -24,19 +22,19 @@ export function panelMenu(p: IDockviewPanel): Entries {
   const joins: Entry[] = stacks.map(({ group, name }) => ({ label: name, act: () => join(p, group) }));
   return [
     ...(figureDialog.of(panel) ? [{ label: 'Export figure…', words: figureWords, act: () => figureDialog.open(panel) }, null] : []),
-    ...ways.map(([side, arrow]) => ({ label: `Move ${side}`, keys: `Ctrl Shift ${arrow}`, disabled: !canMove(p, side), act: () => move(p, side) })),
+    ...allSides.map((side) => ({ label: `Move ${side}`, keys: `Ctrl Shift ${sides[side].arrow}`, disabled: !canMove(p, side), act: () => move(p, side) })),
     // Move is for the whole window there.
-    ...(floats(p) && shares(p) ? [null, ...ways.map(([side]) => ({ label: `Split ${side}`, act: () => split(p, side) }))] : []),
+    ...(floats(p) && shares(p) ? [null, ...allSides.map((side) => ({ label: `Split ${side}`, act: () => split(p, side) }))] : []),
     null,
     ...(joins.length ? [{ label: 'Into the tabs of…', more: () => joins }] : []),
     ...(shares(p) ? [{ label: 'Tab before', keys: 'Ctrl ←', disabled: at === 0, act: () => reorder(p, -1) }, { label: 'Tab after', keys: 'Ctrl →', disabled: at === p.group.panels.length - 1, act: () => reorder(p, 1) }] : []),
     floats(p) ? { label: 'Dock', act: () => unfloat(p) } : { label: 'Float', act: () => float(p) },
     ...(floats(p) || !stacks.length ? [] : [{ label: p.api.isMaximized() ? 'Restore' : 'Maximize', act: () => maximize(p) }]),
     null,
-    { label: 'Wider', keys: 'Alt Shift →', act: () => resize(p, 1, 0) },
-    { label: 'Narrower', keys: 'Alt Shift ←', act: () => resize(p, -1, 0) },
-    { label: 'Taller', keys: 'Alt Shift ↓', act: () => resize(p, 0, 1) },
-    { label: 'Shorter', keys: 'Alt Shift ↑', act: () => resize(p, 0, -1) },
+    { label: 'Wider', keys: 'Alt Shift →', act: () => resize(p, 'right') },
+    { label: 'Narrower', keys: 'Alt Shift ←', act: () => resize(p, 'left') },
+    { label: 'Taller', keys: 'Alt Shift ↓', act: () => resize(p, 'below') },
+    { label: 'Shorter', keys: 'Alt Shift ↑', act: () => resize(p, 'above') },
     null,
     { label: 'Close', keys: 'Del', act: () => close(p) },
     ...(shares(p) ? [{ label: 'Close the other tabs', act: () => closeOthers(p) }] : []),

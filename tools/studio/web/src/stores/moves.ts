@@ -2,16 +2,17 @@
 import type { DockviewGroupPanel, IDockviewPanel } from 'dockview-core';
 import { dock } from './dock.svelte';
 
-export type Side = 'left' | 'right' | 'above' | 'below';
+type Side = keyof typeof sides;
 type Position = 'left' | 'right' | 'top' | 'bottom' | 'center';
 
-/** How dockview names a side, as a place and as a direction, with the way of a floating window in steps. */
-const sides = {
-  left: { position: 'left', towards: 'left', opposite: 'right', step: [-1, 0] },
-  right: { position: 'right', towards: 'right', opposite: 'left', step: [1, 0] },
-  above: { position: 'top', towards: 'up', opposite: 'bottom', step: [0, -1] },
-  below: { position: 'bottom', towards: 'down', opposite: 'top', step: [0, 1] },
+/** How dockview names a side, as a place and as a direction; the key to it, and how menus write that; and its way in steps. */
+export const sides = {
+  left: { position: 'left', towards: 'left', opposite: 'right', key: 'ArrowLeft', arrow: '←', step: [-1, 0] },
+  right: { position: 'right', towards: 'right', opposite: 'left', key: 'ArrowRight', arrow: '→', step: [1, 0] },
+  above: { position: 'top', towards: 'up', opposite: 'bottom', key: 'ArrowUp', arrow: '↑', step: [0, -1] },
+  below: { position: 'bottom', towards: 'down', opposite: 'top', key: 'ArrowDown', arrow: '↓', step: [0, 1] },
 } as const;
+export const allSides = Object.keys(sides) as Side[];
 /** Pixels that a key moves or resizes. */
 const step = 40;
 const minSize = 120;
@@ -88,7 +89,7 @@ export function float(p: IDockviewPanel): void {
   const api = dock.api!, { width, height } = p.group.api;
   if (!floats(p)) {
     const sibling = p.group.panels.find((q) => q !== p);
-    const all = Object.keys(sides) as Side[], side = all.find((s) => neighbour(p, s)), edge = all.find((s) => !canMove(p, s));
+    const side = allSides.find((s) => neighbour(p, s)), edge = allSides.find((s) => !canMove(p, s));
     if (sibling) homes.set(p.id, { beside: sibling.id, position: 'center', index: p.group.panels.indexOf(p), width, height });
     else if (edge) homes.set(p.id, { edge, position: 'center', width, height });
     else if (side) homes.set(p.id, { beside: neighbour(p, side)!.activePanel!.id, position: sides[side].opposite, width, height });
@@ -114,9 +115,9 @@ export function maximize(p: IDockviewPanel): void {
   done(p);
 }
 
-/** Makes the stack of a panel, or its floating window, larger or smaller by steps. */
-export function resize(p: IDockviewPanel, wider: number, taller: number): void {
-  const window = floats(p) ? windowOf(p) : undefined;
+/** Makes the stack of a panel, or its floating window, larger or smaller by a step: the end at the right or below moves to a side. */
+export function resize(p: IDockviewPanel, side: Side): void {
+  const window = floats(p) ? windowOf(p) : undefined, [wider, taller] = sides[side].step;
   const { width, height } = window ?? p.group.api;
   const size = { ...(wider ? { width: Math.max(minSize, width + wider * step) } : {}), ...(taller ? { height: Math.max(minSize, height + taller * step) } : {}) };
   if (window) window.place(size);
