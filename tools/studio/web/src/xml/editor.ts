@@ -25,17 +25,6 @@ interface EditorOptions {
   apply?(): void;
 }
 
-export interface XmlEditor {
-  text(): string;
-  /** Replaces what differs, without a step of undo. Returns whether anything does. */
-  setText(text: string): boolean;
-  setProblems(problems: Problem[]): void;
-  goTo(line: number, column: number): void;
-  next(): void;
-  focus(): void;
-  destroy(): void;
-}
-
 // Texts that come from outside are not reported as changes of the user.
 const outside = Annotation.define<boolean>();
 
@@ -110,7 +99,7 @@ function source(options: EditorOptions) {
 /** The indentation that the text has. */
 const unit = (text: string) => /\n(\t|  +)</.exec(text)?.[1]?.slice(0, 8) ?? '  ';
 
-export function makeEditor(parent: HTMLElement, options: EditorOptions): XmlEditor {
+export function makeEditor(parent: HTMLElement, options: EditorOptions) {
   const whole: Extension = options.whole ? [lineNumbers(), foldGutter(), lintGutter(), search({ top: true }), keymap.of([...searchKeymap, ...foldKeymap])] : [];
   const own: Extension = options.apply ? Prec.highest(keymap.of([{ key: 'Mod-Enter', run: () => (options.apply!(), true) }])) : [];
   const view = new EditorView({
@@ -140,7 +129,6 @@ export function makeEditor(parent: HTMLElement, options: EditorOptions): XmlEdit
       ],
     }),
   });
-  const text = () => view.state.doc.toString();
   // With the focus, the browser moves its selection to the beginning of what is drawn. The editor does not always see that at once, and then follows it there.
   function focus() {
     view.focus();
@@ -149,9 +137,9 @@ export function makeEditor(parent: HTMLElement, options: EditorOptions): XmlEdit
     getSelection()?.setBaseAndExtent(from.node, from.offset, to.node, to.offset);
   }
   return {
-    text,
-    setText(now) {
-      const was = text();
+    /** Replaces what differs, without a step of undo. Returns whether anything does. */
+    setText(now: string): boolean {
+      const was = view.state.doc.toString();
       const wanted = now.replace(/\r\n?/g, '\n');
       if (was === wanted) return false;
       let from = 0;
@@ -161,17 +149,14 @@ export function makeEditor(parent: HTMLElement, options: EditorOptions): XmlEdit
       view.dispatch({ changes: { from, to: was.length - end, insert: wanted.slice(from, wanted.length - end) }, annotations: [outside.of(true), Transaction.addToHistory.of(false)] });
       return true;
     },
-    setProblems(problems) {
-      view.dispatch(setDiagnostics(view.state, marksOf(text(), problems)));
-    },
-    goTo(line, column) {
+    setProblems: (problems: Problem[]) => view.dispatch(setDiagnostics(view.state, marksOf(view.state.doc, problems))),
+    goTo(line: number, column: number) {
       const at = view.state.doc.line(Math.max(1, Math.min(line, view.state.doc.lines)));
       const anchor = at.from + unitsBefore(at.text, column);
       view.dispatch({ selection: { anchor }, effects: EditorView.scrollIntoView(anchor, { y: 'center' }) });
       focus();
     },
     next: () => void (nextDiagnostic(view), focus()),
-    focus,
     destroy: () => view.destroy(),
   };
 }

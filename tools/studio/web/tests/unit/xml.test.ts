@@ -1,4 +1,5 @@
 // What the XML editor suggests, where it marks mistakes, and what it leaves of a file's line ends.
+import { Text } from '@codemirror/state';
 import { describe, expect, it } from 'vitest';
 import type { AttributeRule, ElementRule, TypesResult } from '../../src/protocol/messages';
 import { closingAhead } from '../../src/xml/closing';
@@ -157,11 +158,11 @@ describe('marks', () => {
       { severity: 'error', line: 2, column: 3, message: "no element 'Gruop'", hint: "did you mean 'Group'?" },
       { severity: 'error', line: 0, column: 0, message: 'without a place' },
     ];
-    expect(marksOf(text, problems)).toEqual([
+    expect(marksOf(Text.of(text.split('\n')), problems)).toEqual([
       { from: 11, to: 17, severity: 'error', message: "no element 'Gruop'\ndid you mean 'Group'?" },
       { from: 20, to: 28, severity: 'warning', message: 'last' },
     ]);
-    expect(marksOf('<a', [{ line: 9, column: 9, message: 'beyond' }])).toEqual([{ from: 0, to: 2, severity: 'error', message: 'beyond' }]);
+    expect(marksOf(Text.of(['<a']), [{ line: 9, column: 9, message: 'beyond' }])).toEqual([{ from: 0, to: 2, severity: 'error', message: 'beyond' }]);
   });
 });
 
