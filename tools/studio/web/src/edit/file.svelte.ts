@@ -290,10 +290,7 @@ export const saveActive = () => (inWorld() && worldFile.dirty ? saveWorld() : sa
 export const saveActiveAs = () => fileDialog.open(inWorld() ? 'save the world' : 'save as');
 
 /** What both this page and another program have changed, when a merge was tried; empty otherwise. */
-class Outside {
-  conflict = $state('');
-}
-export const outside = new Outside();
+export const outside = $state({ conflict: '' });
 
 /** What to do when another program wrote the file. A merge that cannot be made says why, and asks again. */
 export async function reload(keep: 'mine' | 'theirs' | 'merge'): Promise<void> {

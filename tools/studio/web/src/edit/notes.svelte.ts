@@ -1,8 +1,2 @@
-// What the diagram shows beside its items.
-class Notes {
-  /** Whether the notes of items are shown. */
-  shown = $state(false);
-  /** Whether the map of the page is shown; null: on large pages. */
-  map = $state<boolean | null>(null);
-}
-export const notes = new Notes();
+/** What the diagram shows beside its items: their notes, and the map of the page; null: on large pages. */
+export const notes = $state({ shown: false, map: null as boolean | null });

@@ -1,5 +1,2 @@
-// Which dialog about the program is open; null for none.
-class Dialogs {
-  shown = $state<'about' | 'settings' | null>(null);
-}
-export const dialogs = new Dialogs();
+/** Which dialog about the program is open; null for none. */
+export const dialogs = $state<{ shown: 'about' | 'settings' | null }>({ shown: null });
