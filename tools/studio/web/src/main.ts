@@ -4,12 +4,10 @@ import App from './App.svelte';
 import { start } from './studio';
 import { kinds } from './panels/registry';
 import { frame } from './stores/frame.svelte';
-import { theme } from './stores/theme.svelte';
 
 // What every arrangement needs is fetched while the page begins.
 void import('dockview-core');
 void kinds.diagram!.load();
-theme.start();
 frame.start();
 mount(App, { target: document.getElementById('app')! });
 start();

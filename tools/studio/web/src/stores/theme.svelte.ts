@@ -1,18 +1,14 @@
 // Light or dark: the system's choice, unless the user chose.
+import { MediaQuery } from 'svelte/reactivity';
+
 export type Choice = 'auto' | 'light' | 'dark';
 
-class Theme {
-  choice = $state<Choice>('auto');
-  private systemDark = $state(false);
-  dark = $derived(this.choice === 'auto' ? this.systemDark : this.choice === 'dark');
+const systemDark = new MediaQuery('prefers-color-scheme: dark'), kept = localStorage.getItem('theme');
 
-  start(): void {
-    const query = matchMedia('(prefers-color-scheme: dark)');
-    this.systemDark = query.matches;
-    query.onchange = () => (this.systemDark = query.matches);
-    const kept = localStorage.getItem('theme');
-    if (kept === 'light' || kept === 'dark') this.choice = kept;
-  }
+class Theme {
+  choice = $state<Choice>(kept === 'light' || kept === 'dark' ? kept : 'auto');
+  dark = $derived(this.choice === 'auto' ? systemDark.current : this.choice === 'dark');
+
   choose(choice: Choice): void {
     this.choice = choice;
     localStorage.setItem('theme', choice);
