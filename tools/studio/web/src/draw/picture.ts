@@ -1,5 +1,5 @@
 // Saves a picture that is there as SVG.
-import { download } from './save';
+import { download, savePng } from './save';
 
 export const saveSvg = (name: string, svg: string): void => download(`${name}.svg`, 'image/svg+xml', svg);
 
@@ -13,5 +13,5 @@ export async function saveSvgAsPng(name: string, svg: string, scale = 2): Promis
   canvas.width = Math.ceil(image.width * part);
   canvas.height = Math.ceil(image.height * part);
   canvas.getContext('2d')!.drawImage(image, 0, 0, canvas.width, canvas.height);
-  canvas.toBlob((blob) => blob && download(`${name}.png`, 'image/png', blob));
+  savePng(name, canvas);
 }

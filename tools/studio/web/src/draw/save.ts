@@ -15,16 +15,7 @@ export function download(name: string, type: string, content: BlobPart): void {
   tell(name);
 }
 
-const savePngOf = (name: string, canvas: HTMLCanvasElement) => canvas.toBlob((blob) => blob && download(`${name}.png`, 'image/png', blob));
-
-/** Saves a canvas on its own. */
-export function savePng(name: string, canvas: HTMLCanvasElement): void {
-  const out = document.createElement('canvas');
-  out.width = canvas.width;
-  out.height = canvas.height;
-  out.getContext('2d')!.drawImage(canvas, 0, 0);
-  savePngOf(name, out);
-}
+export const savePng = (name: string, canvas: HTMLCanvasElement): void => canvas.toBlob((blob) => blob && download(`${name}.png`, 'image/png', blob));
 
 /** The colour of a cell by its number; 'none' where there is nothing. */
 type Colour = (i: number) => string;
@@ -70,7 +61,7 @@ export function saveHeats(name: string, format: string, maps: (HeatMap & { canva
     context.drawImage(canvas, x, y, s * canvas.width, s * canvas.height);
     context.fillText(caption, middle, below);
   });
-  savePngOf(name, out);
+  savePng(name, out);
 }
 
 /** The colours of values on a scale. */
