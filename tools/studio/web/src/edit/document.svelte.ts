@@ -20,18 +20,13 @@ class DocumentState {
   /** Whether the text has a system that forms can change. */
   readable = $derived(this.message?.readable ?? true);
   errors = $derived(this.problems.filter((p) => p.severity !== 'warning').length);
-  /** Problems by the item that they are about. */
-  private byItem = $derived.by(() => {
-    const all = new Map<string, DocumentProblem[]>();
-    for (const p of this.problems) if (p.item) all.set(p.item, [...(all.get(p.item) ?? []), p]);
-    return all;
-  });
   /** What users call a type; its name in the file when it has no other. */
   typeLabel(kind: 'neurons' | 'synapses' | 'modules', type: string): string {
     return this.types?.[kind].find((t) => t.type === type)?.label || type;
   }
+  /** The problems that are about an item. */
   of(item: string): DocumentProblem[] {
-    return this.byItem.get(item) ?? [];
+    return this.problems.filter((p) => p.item === item);
   }
 }
 

@@ -37,8 +37,11 @@ export function viewOf(items: WorldItem[], shown: [number, number, number, numbe
   return { x: left, y: -top, width: right - left, height: top - bottom };
 }
 
-/** The items of the map, the largest first, so that they lie below. A floor without bounds has no end, and is not drawn. */
-export const drawn = (items: WorldItem[]): WorldItem[] => items.filter((i) => i.placed && !(i.kind === 'floor' && i.parts.length === 0)).sort((a, b) => Number(b.kind === 'floor') - Number(a.kind === 'floor') || reach(b) - reach(a));
+/** Whether an item is on the map. A floor without bounds has no end, and is not drawn. */
+export const isOnMap = (i: WorldItem): boolean => i.placed && !(i.kind === 'floor' && i.parts.length === 0);
+
+/** The items of the map, the largest first, so that they lie below. */
+export const drawn = (items: WorldItem[]): WorldItem[] => items.filter(isOnMap).sort((a, b) => Number(b.kind === 'floor') - Number(a.kind === 'floor') || reach(b) - reach(a));
 
 /** The view zoomed by a factor around a place of the screen's coordinates (y downwards). */
 export function zoomed(v: View, factor: number, x: number, y: number): View {
