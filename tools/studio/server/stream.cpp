@@ -36,15 +36,15 @@ void set_range(Chunk& chunk, std::span<const double> numbers, std::size_t row) {
 }  // namespace
 
 std::span<const double> SharedSource::numbers(std::uint64_t version) {
-    if (read_ != version) source_->read(run_, numbers_), read_ = version;
+    if (read_ != version) source_.read(run_, numbers_), read_ = version;
     return numbers_;
 }
 
 const Chunk& SharedSource::chunk(std::uint64_t version) {
     if (packed_ == version) return chunk_;
     const auto all = numbers(version);
-    chunk_.type = source_->type();
-    chunk_.rows = source_->rows(), chunk_.columns = source_->columns();
+    chunk_.type = source_.type;
+    chunk_.rows = source_.rows, chunk_.columns = source_.columns;
     set_range(chunk_, all, 0);
     chunk_.bytes = chunk_.type == Type::float32 ? bytes_of<float>(all) : bytes_of<std::uint8_t>(all);
     packed_ = version;
@@ -54,7 +54,7 @@ const Chunk& SharedSource::chunk(std::uint64_t version) {
 Rows::Rows(std::shared_ptr<SharedSource> source, std::uint64_t every)
     : source_(std::move(source)),
       every_(every),
-      columns_(1 + std::size_t{source_->source().rows()} * source_->source().columns() * (every > 1 ? 2 : 1)),
+      columns_(1 + std::size_t{source_->source().rows} * source_->source().columns * (every > 1 ? 2 : 1)),
       max_rows_(std::max<std::size_t>(64, max_kept / (columns_ * sizeof(double)))) {}
 
 std::span<const double> Rows::from(std::uint64_t row) const {

@@ -29,11 +29,9 @@ struct Chunk {
 /// version is a number that grows with each change of the run.
 class SharedSource {
   public:
-    SharedSource(Run& run, std::unique_ptr<StreamSource> source)
-        : run_(run),
-          source_(std::move(source)),
-          numbers_(static_cast<std::size_t>(source_->rows()) * source_->columns()) {}
-    const StreamSource& source() const { return *source_; }
+    SharedSource(Run& run, StreamSource source)
+        : run_(run), source_(std::move(source)), numbers_(std::size_t{source_.rows} * source_.columns) {}
+    const StreamSource& source() const { return source_; }
     /// The numbers as they are now.
     std::span<const double> numbers(std::uint64_t version);
     /// The same, for a frame.
@@ -41,7 +39,7 @@ class SharedSource {
 
   private:
     Run& run_;
-    std::unique_ptr<StreamSource> source_;
+    StreamSource source_;
     std::vector<double> numbers_;
     Chunk chunk_;
     std::optional<std::uint64_t> read_, packed_;  ///< versions

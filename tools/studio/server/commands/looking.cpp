@@ -30,9 +30,9 @@ json subscribe(Session& s, const Request& r) {
         s.pages.sources.stream(s.run(), reference_of(s), r.text("source"), delivery, r.whole("every")));
     const auto& stream = page.stream(number);
     return {{"stream", number},
-            {"rows", stream.source().rows()},
-            {"columns", stream.source().columns()},
-            {"label", stream.source().label()},
+            {"rows", stream.source().rows},
+            {"columns", stream.source().columns},
+            {"label", stream.source().label},
             {"every", stream.every()}};
 }
 
@@ -51,7 +51,7 @@ json acknowledge(Session& s, const Request& r) {
 json read_source(Session& s, const Request& r) {
     const auto shared = s.pages.sources.find(s.run(), reference_of(s), r.text("source"), Delivery::latest);
     const auto values = shared->numbers(s.live.version);
-    return {{"rows", shared->source().rows()}, {"columns", shared->source().columns()}, {"values", values}};
+    return {{"rows", shared->source().rows}, {"columns", shared->source().columns}, {"values", values}};
 }
 
 json list_synapses(Session& s, const Request& r) {

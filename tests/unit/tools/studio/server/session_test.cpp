@@ -109,17 +109,10 @@ TEST_CASE("frames come at most thirty times a second, and only when something ha
 }
 
 TEST_CASE("what several pages watch is read once, and they get the same") {
-    struct Counting final : StreamSource {
-        int& reads;
-        explicit Counting(int& count) : reads(count) {}
-        std::uint32_t rows() const override { return 1; }
-        std::uint32_t columns() const override { return 2; }
-        std::string label() const override { return "count"; }
-        void read(Run&, std::span<double> out) const override { out[0] = ++reads, out[1] = -1; }
-    };
     Fixture f;
     int reads = 0;
-    SharedSource shared(f.session.run(), std::make_unique<Counting>(reads));
+    const auto count = [&](Run&, std::span<double> out) { out[0] = ++reads, out[1] = -1; };
+    SharedSource shared(f.session.run(), {1, 2, "count", count});
     for (std::uint64_t version = 1; version <= 3; ++version)
         for (int page = 0; page < 3; ++page) {
             CHECK(shared.numbers(version)[0] == static_cast<double>(version));
