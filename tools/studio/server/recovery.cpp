@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 
 #include "core/base/digest.h"
+#include "core/base/sequence.h"
 #include "core/base/text_file.h"
 #include "core/run/checkpoint_file.h"
 
