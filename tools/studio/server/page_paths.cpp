@@ -29,48 +29,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct KindOfFile {
-    FileKind kind;
-    const char* name;
-    std::vector<std::string> endings;
-    std::vector<std::string_view> roots;  ///< the names of its first element; none when it is not XML
-    const char* begins;
-};
-
-const KindOfFile& about(FileKind kind) {
-    static const std::vector<KindOfFile> all = {
-        {FileKind::system, "a system", {".iqr"}, {"System"}, "it begins with <System>"},
-        {FileKind::process, "a process", {".iqrProcess"}, {"iqrEntity"}, "it begins with <iqrEntity>"},
-        {FileKind::world, "a world", {".world"}, {"sdf", "gazebo"}, "it begins with <sdf>"},
-        {FileKind::plots,
-         "a configuration of plots",
-         {".conf"},
-         {"iqrDataManagerConfiguration"},
-         "it begins with <iqrDataManagerConfiguration>"},
-        {FileKind::panel, "a panel", {".hconf"}, {"HarborConfig"}, "it begins with <HarborConfig>"},
-        {FileKind::parameters, "a set of parameters", {".pconf"}, {"ParamSet"}, "it begins with <ParamSet>"},
-        {FileKind::layout, "a layout", {".layout.json"}, {}, "it is JSON with 'dock' or 'plots'"},
-        {FileKind::patterns, "a file of patterns", {".txt"}, {}, "it holds numbers only"},
-        {FileKind::table, "a table", {".csv"}, {}, "a row is cycle,process,target,v0,v1,..."},
-        {FileKind::numbers,
-         "a file of numbers",
-         {".npy", ".csv"},
-         {},
-         "it is of NumPy, or its rows have numbers with commas between them"},
-        {FileKind::recording,
-         "a recording",
-         {".csv", ".dat", ".npy", ".h5"},
-         {},
-         "its first column is 'cycle', or it is of NumPy or HDF5"},
-        {FileKind::camera, "a camera", {}, {}, "a page may name a device /dev/video*"},
-        {FileKind::gamepad,
-         "a gamepad",
-         {},
-         {},
-         "a page may name a device of /dev/input, or a file with its records"}};
-    return *std::ranges::find(all, kind, &KindOfFile::kind);
-}
-
 /// The name of the first element of a text; empty when something else comes before it.
 std::string_view first_element(std::string_view text) {
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
@@ -94,85 +52,116 @@ std::string_view first_element(std::string_view text) {
     return text.substr(0, text.find_first_of(" \t\r\n/>"));
 }
 
-/// The rest of `text` becomes what follows the first line.
-std::string_view next_line(std::string_view& text) {
-    const auto end = std::min(text.find('\n'), text.size());
-    const auto line = text.substr(0, end);
-    text.remove_prefix(std::min(end + 1, text.size()));
-    return line;
+/// The parts of a text between separators.
+std::vector<std::string_view> split_at(std::string_view separators, std::string_view text) {
+    std::vector<std::string_view> out;
+    while (!text.empty()) {
+        const auto end = std::min(text.find_first_of(separators), text.size());
+        out.push_back(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return out;
+}
+
+/// The lines of a text that are no comments.
+std::vector<std::string_view> rows_of(std::string_view text) {
+    auto out = split_at("\n", text);
+    std::erase_if(out, [](auto line) { return line.starts_with('#') || model::trim(line).empty(); });
+    return out;
 }
 
 bool is_number(std::string_view field) { return parse_number<double>(model::trim(field)).has_value(); }
-
-bool are_numbers(std::string_view line, std::string_view separators) {
-    while (!line.empty()) {
-        const auto end = std::min(line.find_first_of(separators), line.size());
-        const auto field = line.substr(0, end);
-        if (!model::trim(field).empty() && !is_number(field)) return false;
-        line.remove_prefix(std::min(end + 1, line.size()));
-    }
-    return true;
-}
-
-bool is_comment(std::string_view line) { return line.starts_with('#') || model::trim(line).empty(); }
+bool is_number_or_blank(std::string_view field) { return is_number(field) || model::trim(field).empty(); }
 
 bool holds_patterns(std::string_view text) {
-    bool has_numbers = false;
-    while (!text.empty())
-        if (const auto line = next_line(text); !is_comment(line)) {
-            if (!are_numbers(line, " \t\r,;")) return false;
-            has_numbers = true;
-        }
-    return has_numbers;
+    const auto rows = rows_of(text);
+    return !rows.empty() && std::ranges::all_of(rows, [](auto row) {
+        return std::ranges::all_of(split_at(" \t\r,;", row), is_number_or_blank);
+    });
 }
 
 bool holds_table(std::string_view text) {
-    bool has_rows = false;
-    while (!text.empty()) {
-        auto line = next_line(text);
-        if (is_comment(line)) continue;
-        has_rows = true;
-        if (line.starts_with("cycle,")) continue;
-        const auto cycle = line.substr(0, line.find(','));
-        for (int names = 0; names < 3; ++names) {  // what is before the values
-            const auto comma = line.find(',');
-            if (comma == line.npos) return false;
-            line.remove_prefix(comma + 1);
-        }
-        if (!is_number(cycle) || !are_numbers(line, ",\r")) return false;
-    }
-    return has_rows;
+    const auto rows = rows_of(text);
+    return !rows.empty() && std::ranges::all_of(rows, [](auto row) {
+        if (row.starts_with("cycle,")) return true;
+        const auto fields = split_at(",\r", row);
+        return std::ranges::count(row, ',') >= 3 && is_number(fields[0]) &&
+               std::all_of(fields.begin() + 3, fields.end(), is_number_or_blank);
+    });
 }
 
 constexpr std::string_view numpy = "\x93NUMPY";
 
 bool holds_numbers(std::string_view text) {
     if (text.starts_with(numpy)) return true;
-    while (!text.empty()) {
-        auto line = next_line(text);
-        if (is_comment(line)) continue;
-        while (!line.empty()) {  // a column beside the numbers may have names
-            const auto end = std::min(line.find(','), line.size());
-            if (is_number(line.substr(0, end))) return true;
-            line.remove_prefix(std::min(end + 1, line.size()));
-        }
-    }
-    return false;
+    return std::ranges::any_of(rows_of(text), [](auto row) {  // a column beside the numbers may have names
+        return std::ranges::any_of(split_at(",", row), is_number);
+    });
 }
 
 bool holds_recording(std::string_view text) {
     using namespace std::string_view_literals;
     if (text.starts_with(numpy) || text.starts_with("\x89HDF\r\n\x1a\n"sv)) return true;
-    while (!text.empty())
-        if (const auto line = next_line(text); !is_comment(line))
-            return line.starts_with("cycle,") || line.starts_with("cycle;") || model::trim(line) == "cycle";
-    return false;
+    const auto rows = rows_of(text);
+    return !rows.empty() && (rows[0].starts_with("cycle,") || rows[0].starts_with("cycle;") ||
+                             model::trim(rows[0]) == "cycle");
 }
 
 bool holds_layout(std::string_view text) {
     if (size_of_json(text).depth > 100) return false;
     const auto content = nlohmann::json::parse(text, nullptr, false);
     return content.is_object() && (content.contains("dock") || content.contains("plots"));
+}
+
+struct KindOfFile {
+    FileKind kind;
+    const char* name;
+    std::vector<std::string> endings;
+    std::vector<std::string_view> roots;  ///< the names of its first element; none when it is not XML
+    const char* begins;
+    bool (*holds)(std::string_view text) = nullptr;  ///< of what is not XML
+};
+
+const KindOfFile& about(FileKind kind) {
+    static const std::vector<KindOfFile> all = {
+        {FileKind::system, "a system", {".iqr"}, {"System"}, "it begins with <System>"},
+        {FileKind::process, "a process", {".iqrProcess"}, {"iqrEntity"}, "it begins with <iqrEntity>"},
+        {FileKind::world, "a world", {".world"}, {"sdf", "gazebo"}, "it begins with <sdf>"},
+        {FileKind::plots,
+         "a configuration of plots",
+         {".conf"},
+         {"iqrDataManagerConfiguration"},
+         "it begins with <iqrDataManagerConfiguration>"},
+        {FileKind::panel, "a panel", {".hconf"}, {"HarborConfig"}, "it begins with <HarborConfig>"},
+        {FileKind::parameters, "a set of parameters", {".pconf"}, {"ParamSet"}, "it begins with <ParamSet>"},
+        {FileKind::layout,
+         "a layout",
+         {".layout.json"},
+         {},
+         "it is JSON with 'dock' or 'plots'",
+         holds_layout},
+        {FileKind::patterns, "a file of patterns", {".txt"}, {}, "it holds numbers only", holds_patterns},
+        {FileKind::table, "a table", {".csv"}, {}, "a row is cycle,process,target,v0,v1,...", holds_table},
+        {FileKind::numbers,
+         "a file of numbers",
+         {".npy", ".csv"},
+         {},
+         "it is of NumPy, or its rows have numbers with commas between them",
+         holds_numbers},
+        {FileKind::recording,
+         "a recording",
+         {".csv", ".dat", ".npy", ".h5"},
+         {},
+         "its first column is 'cycle', or it is of NumPy or HDF5",
+         holds_recording},
+        {FileKind::camera, "a camera", {}, {}, "a page may name a device /dev/video*"},
+        {FileKind::gamepad,
+         "a gamepad",
+         {},
+         {},
+         "a page may name a device of /dev/input, or a file with its records",
+         gamepad::are_records}};
+    return *std::ranges::find(all, kind, &KindOfFile::kind);
 }
 
 constexpr std::size_t max_beginning = std::size_t{4} << 20;
@@ -229,22 +218,8 @@ bool is_device(const std::string& path, std::string_view beginning) {
 
 bool is_of_kind(std::string_view text, FileKind kind) {
     if (model::trim(text).empty()) return true;
-    switch (kind) {
-        case FileKind::layout:
-            return holds_layout(text);
-        case FileKind::patterns:
-            return holds_patterns(text);
-        case FileKind::table:
-            return holds_table(text);
-        case FileKind::numbers:
-            return holds_numbers(text);
-        case FileKind::recording:
-            return holds_recording(text);
-        case FileKind::gamepad:
-            return gamepad::are_records(text);
-        default:
-            return std::ranges::count(about(kind).roots, first_element(text)) > 0;
-    }
+    const auto& file = about(kind);
+    return file.holds ? file.holds(text) : std::ranges::count(file.roots, first_element(text)) > 0;
 }
 
 void check_readable(const std::string& path, std::initializer_list<FileKind> kinds) {
