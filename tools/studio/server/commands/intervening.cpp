@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -15,15 +17,9 @@ namespace {
 using Manipulation = observe::Manipulation;
 using Patterns = std::vector<std::vector<double>>;
 
-constexpr std::pair<const char*, Manipulation::Mode> manipulation_modes[] = {
-    {"clamp", Manipulation::Mode::clamp},
-    {"add", Manipulation::Mode::add},
-    {"multiply", Manipulation::Mode::multiply}};
+constexpr std::array<std::string_view, 3> modes = {"clamp", "add", "multiply"};  ///< as Manipulation::Mode
 
-std::string name_of(Manipulation::Mode mode) {
-    return std::ranges::find(manipulation_modes, mode, &std::pair<const char*, Manipulation::Mode>::second)
-        ->first;
-}
+std::string name_of(Manipulation::Mode mode) { return std::string(modes[static_cast<std::size_t>(mode)]); }
 
 /// The number of a group. Throws InputError.
 int find_group(const Run& run, const std::string& name) {
@@ -57,9 +53,8 @@ Patterns patterns_for(const engine::Layout::Group& group, const json& given) {
 Manipulation::Settings settings_in(const Run& run, const json& action) {
     Manipulation::Settings out;
     out.group = find_group(run, action.at("group").get<std::string>());
-    out.mode = std::ranges::find(manipulation_modes, action.at("mode").get<std::string>(), [](const auto& m) {
-                   return std::string(m.first);
-               })->second;
+    out.mode = static_cast<Manipulation::Mode>(
+        std::ranges::find(modes, action.at("mode").get_ref<const std::string&>()) - modes.begin());
     out.patterns = patterns_for(group_at(run, out.group), action.at("patterns"));
     out.every = action.at("every"), out.step = action.at("step"), out.backwards = action.at("backwards");
     if (const auto it = action.find("times"); it != action.end() && !it->is_null()) out.times = *it;
