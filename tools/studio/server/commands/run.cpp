@@ -98,18 +98,6 @@ json stop_run(Session& s, const Request&) {
     return json::object();
 }
 
-/// Begins the run again with another input; with the one before when that fails.
-void reset_with(Session& s, RunInput input) {
-    const auto before = std::exchange(s.edited.input, std::move(input));
-    try {
-        s.reset();
-    } catch (...) {
-        s.edited.input = before;
-        throw;
-    }
-    s.note_use();
-}
-
 json restart_run(Session& s, const Request& r) {
     RunInput input = s.edited.input;
     if (r.has("seed")) input.seed = r.whole("seed");
@@ -221,6 +209,17 @@ json quit_program(Session& s, const Request&) {
 }
 
 }  // namespace
+
+void reset_with(Session& s, RunInput input) {
+    const auto before = std::exchange(s.edited.input, std::move(input));
+    try {
+        s.reset();
+    } catch (...) {
+        s.edited.input = before;
+        throw;
+    }
+    s.note_use();
+}
 
 Equivalent begun_again(const Session& s, Equivalent (*form)(const Opened&), const std::string& world) {
     return form({s.edited.input.system, world, s.edited.input.seed, s.edited.document->dirty()});

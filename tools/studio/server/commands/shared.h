@@ -17,6 +17,8 @@ void refuse_shipped(const Session& session, const std::string& path);
 
 // ---- the run ----
 std::size_t find_robot(Session& session, const Request& request);
+/// Begins the run again with another input; with the one before when that fails.
+void reset_with(Session& session, RunInput input);
 /// The scripts of a run of the document that begins again in a world.
 Equivalent begun_again(const Session& session, Equivalent (*form)(const Opened&), const std::string& world);
 /// Begins a recording that was asked to begin with the run.

@@ -101,16 +101,10 @@ json save_world(Session& s, const Request& r) {
     }
     write_file(file, world.text);
     world.saved = world.text, world.path = file;
-    const auto before = s.edited.input;
+    RunInput input = s.edited.input;
+    input.world = file, input.world_text.clear();
     const auto ended = s.lost_by_rebuild();
-    s.edited.input.world = file, s.edited.input.world_text.clear();
-    try {
-        s.reset();  // the run restarts in the world as it is now
-    } catch (...) {
-        s.edited.input = before;
-        throw;
-    }
-    s.note_use();
+    reset_with(s, std::move(input));
     const auto name = std::filesystem::path(file).filename().string();
     s.log({.command = "world_save",
            .title = "save " + name + " and restart in it",
