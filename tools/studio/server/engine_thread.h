@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <functional>
 #include <thread>
 #include <utility>
 
+#include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/post.hpp>
-#include <boost/asio/steady_timer.hpp>
 
 #include "tools/studio/server/session.h"
 
@@ -20,31 +21,29 @@ class EngineThread {
   public:
     using Job = std::function<void(Session&)>;
 
-    explicit EngineThread(Session& session)
-        : session_(session), thread_([this] { work_after(0), io_.run(); }) {}
+    explicit EngineThread(Session& session) : session_(session), thread_([this] { work(); }) {}
     ~EngineThread() {
         io_.stop();
         thread_.join();
     }
     void post(Job job) {
-        boost::asio::post(io_, [this, job = std::move(job)] {
-            job(session_);
-            work_after(0);
-        });
+        boost::asio::post(io_, [this, job = std::move(job)] { job(session_); });
     }
 
   private:
-    void work_after(double seconds) {
-        const std::chrono::duration<double> wait(std::min(seconds, 3600.));
-        timer_.expires_after(std::chrono::duration_cast<std::chrono::steady_clock::duration>(wait));
-        timer_.async_wait([this](boost::system::error_code stopped) {
-            if (!stopped) work_after(session_.work(clock_now()));
-        });
+    void work() {
+        double wait = 0;
+        while (!io_.stopped()) {
+            if (wait > 0)
+                io_.run_one_for(std::chrono::microseconds(std::llround(1e6 * std::min(wait, 3600.))));
+            io_.poll();
+            wait = session_.work(clock_now());
+        }
     }
 
     Session& session_;
     boost::asio::io_context io_{1};
-    boost::asio::steady_timer timer_{io_};
+    boost::asio::executor_work_guard<boost::asio::io_context::executor_type> stays_{io_.get_executor()};
     std::thread thread_;
 };
 
