@@ -71,9 +71,7 @@ EMSCRIPTEN_KEEPALIVE const char* forage_open(const char* system, const char* wor
 }
 
 /// Executes a message of the page.
-EMSCRIPTEN_KEEPALIVE void forage_receive(const char* message) {
-    session->message(page, message);
-}
+EMSCRIPTEN_KEEPALIVE void forage_receive(const char* message) { session->message(page, message); }
 
 /// Runs the cycles that are due. Returns the seconds until it should be called again.
 EMSCRIPTEN_KEEPALIVE double forage_work() { return session->work(studio::clock_now()); }
