@@ -73,7 +73,7 @@ file(WRITE ${PROJECT_BINARY_DIR}/package/changelog "forage (${PROJECT_VERSION}-$
 
   * The changes are in CHANGELOG.md, which forage-doc contains.
 
- -- ${CPACK_PACKAGE_CONTACT}  Mon, 23 Nov 2026 12:00:00 +0000
+ -- ${CPACK_PACKAGE_CONTACT}  Mon, 30 Nov 2026 12:00:00 +0000
 ")
 find_program(GZIP gzip REQUIRED)
 set(package_files ${PROJECT_BINARY_DIR}/package/forage.1.gz)
