@@ -12,6 +12,7 @@
 #include "core/run/experiment/parts.h"
 #include "core/run/experiment/tables.h"
 #include "tests/support/catch.h"
+#include "tests/support/folder.h"
 #include "tools/api/experiment/results.h"
 
 using namespace forage;
@@ -47,8 +48,8 @@ RunResult stub(std::size_t run) {
 }  // namespace
 
 TEST_CASE("a million runs are planned, executed in a thousand parts, merged and drawn in less than 1 GB") {
-    const std::string directory = std::filesystem::temp_directory_path() / "forage_scale_test";
-    std::filesystem::remove_all(directory);
+    const test::Folder folder;
+    const std::string directory = folder.path;
     const auto e = million_runs();
     const RunPlan plan(e, directory);
     REQUIRE(plan.size() == 1'000'000);
@@ -102,7 +103,6 @@ TEST_CASE("a million runs are planned, executed in a thousand parts, merged and 
     getrusage(RUSAGE_SELF, &usage);
     std::cout << usage.ru_maxrss / 1024 << " MB\n";
     CHECK(usage.ru_maxrss < 1'000'000);  // kB
-    std::filesystem::remove_all(directory);
 }
 
 TEST_CASE("a plan gives repeated runs names of their own") {

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include "bug_interface/simulation/world.h"
 #include "core/base/output_files.h"
@@ -893,7 +894,8 @@ class FileLimit {
 TEST_CASE("a recording whose disk is full ends with its reason, and the run continues") {
     Fixture f;
     f.session.connect(1);
-    const auto file = std::filesystem::temp_directory_path() / "forage-full-disk.csv";
+    const auto file =
+        std::filesystem::temp_directory_path() / fmt::format("forage-full-disk-{}.csv", ::getpid());
     const auto sample = [&] {
         f.result({{"command", "sample"},
                   {"file", file.string()},
