@@ -1,12 +1,12 @@
 #include "tools/studio/server/requests.h"
 
 #include <algorithm>
-#include <charconv>
 #include <random>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "core/base/number.h"
 #include "core/run/input_error.h"
 #include "tools/api/edit/json_text.h"
 #include "tools/studio/server/pages.h"
@@ -17,27 +17,43 @@ namespace {
 
 constexpr std::size_t max_containers = 200'000, max_values = 1'000'000;  ///< in a message
 
-/// The member `id` of a message, of which nothing else is kept that nests; null when it is no whole number.
+/// The member `id` of a message that is not parsed; null when it is no whole number.
 json id_in(std::string_view message) {
-    const auto is_kept = [](int depth, json::parse_event_t event, const json&) {
-        return depth == 0 || event == json::parse_event_t::key || event == json::parse_event_t::value;
-    };
-    const auto parsed = json::parse(message, is_kept, false);
-    const auto found = parsed.is_object() ? parsed.find("id") : parsed.end();
-    return found != parsed.end() && found->is_number_integer() ? *found : json(nullptr);
+    constexpr std::string_view blanks = " \t\r\n";
+    int depth = 0;
+    for (std::size_t i = 0; i < message.size(); ++i) {
+        depth += message[i] == '[' || message[i] == '{' ? 1 : message[i] == ']' || message[i] == '}' ? -1 : 0;
+        if (message[i] != '"') continue;
+        const auto begin = i++;
+        for (; i < message.size() && message[i] != '"'; ++i) i += message[i] == '\\' ? 1 : 0;
+        if (depth != 1 || message.substr(begin, i - begin) != "\"id") continue;
+        auto value = message.substr(std::min(message.find_first_not_of(blanks, i + 1), message.size()));
+        if (!value.starts_with(':')) continue;
+        value.remove_prefix(std::min(value.find_first_not_of(blanks, 1), value.size()));
+        const auto number = parse_number<std::int64_t>(value.substr(0, value.find_first_of(",} \t\r\n")));
+        return number ? json(*number) : json(nullptr);
+    }
+    return nullptr;
+}
+
+int digit(char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
+    return -1;
 }
 
 std::string decoded(std::string_view text) {
     std::string out;
     for (std::size_t i = 0; i < text.size(); ++i) {
-        unsigned char byte = 0;
-        const char* const digits = text.data() + i + 1;
-        if (text[i] == '%' && i + 2 < text.size() &&
-            std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
-            out += static_cast<char>(byte);
+        if (text[i] == '+') {
+            out += ' ';
+        } else if (text[i] == '%' && i + 2 < text.size() && digit(text[i + 1]) >= 0 &&
+                   digit(text[i + 2]) >= 0) {
+            out += static_cast<char>(16 * digit(text[i + 1]) + digit(text[i + 2]));
             i += 2;
         } else {
-            out += text[i] == '+' ? ' ' : text[i];
+            out += text[i];
         }
     }
     return out;

@@ -60,6 +60,10 @@ void serve(const StudioOptions& options, const std::function<void(const Ready&)>
     wanted.opened = [&](int client) { engine->post([client](Session& s) { s.connect(client); }); };
     wanted.closed = [&](int client) { engine->post([client](Session& s) { s.disconnect(client); }); };
     wanted.received = [&](int client, std::string text) {
+        if (const auto refused = refusal_of(text)) {
+            server->send(client, false, *refused);
+            return server->handled(text.size());
+        }
         engine->post([&server, client, text = std::move(text)](Session& s) {
             s.message(client, text);
             server->handled(text.size());
