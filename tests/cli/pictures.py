@@ -14,7 +14,7 @@ import zlib
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 ROUNDING = 0.01  # of the coordinates of an SVG, in points, and of its colours, in percent
 SHADE = 16  # the largest change of a pixel of a PNG, of 255
-EDGES = 0.01  # the share of its pixels that may change so little; lines of noise are mostly edges
+EDGES = 0.0005  # the share of its pixels that may change so little
 USUAL = {("stroke", "none"), ("fill-rule", "nonzero"), ("clip-rule", "nonzero")}  # only some versions write them
 
 
