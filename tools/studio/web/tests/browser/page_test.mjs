@@ -89,6 +89,8 @@ export default async function({ site, start, open, faults, step }) {
   await page.keyboard.press('Escape');
 
   step('drive the motor by hand: the plot shows the clamped cell');
+  await page.getByRole('button', { name: 'Stop', exact: true }).click(); // the scale begins again
+  await until(page, 'cycle 0', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '0');
   await page.getByRole('navigation').getByText('Motor', { exact: true }).click();
   await inspector.getByRole('button', { name: 'Drive' }).click();
   const drive = page.getByRole('group', { name: 'Drive Bug/Motor' });
@@ -103,7 +105,7 @@ export default async function({ site, start, open, faults, step }) {
     const c = document.querySelector('[aria-label="Space plot of Bug/Motor"] canvas.heat');
     if (!c || c.width !== 9) return false;
     const d = c.getContext('2d').getImageData(0, 4, 2, 1).data;
-    return d[1] > 100 && d[5] < 50; // yellow or green, as the scale keeps what the motor was before; then dark blue
+    return d[0] > 200 && d[4] < 100; // yellow, then dark blue
   });
   await page.keyboard.press('Control+k');
   await page.keyboard.type('drive');
