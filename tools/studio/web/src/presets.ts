@@ -88,11 +88,11 @@ function around(large: PanelState, others: PanelState[]): void {
     const named = large.kind === 'diagram', half = Math.round(all / 2);
     // The names in a diagram need room: on a small window it stands alone. Else the robot, or what is measured of it, is in sight beside the panel in question.
     const below = { beside: main, direction: 'below' as const, height: Math.round(api.height * (named ? 0.35 : 0.43)) }, right = { beside: main, direction: 'right' as const, width: half };
-    const companions = frame.small && large.kind === 'arena' ? [...others.splice(0), ...views] : views;
+    const together = frame.small && large.kind === 'arena', companions = together ? [...others, ...views] : views;
     let view = frame.small && named ? main : null;
     for (const p of companions) view = dock.open(p, view ? { beside: view, inactive: true } : frame.small ? right : below);
     let plot = frame.small ? main : null;
-    for (const p of others) plot = dock.open(p, plot ? { beside: plot, inactive: true } : view ? { ...right, beside: view } : below);
+    for (const p of together ? [] : others) plot = dock.open(p, plot ? { beside: plot, inactive: true } : view ? { ...right, beside: view } : below);
     if (frame.small && frame.reading) api.getPanel(main)?.api.setSize({ height: Math.round(api.height * (named ? 0.6 : 0.55)) });
     api.getPanel(main)?.api.setActive();
     return;
