@@ -78,8 +78,7 @@ void add_array(Class& type, Numbers numbers) {
             },
             "The numbers as a capsule of DLPack, as NumPy makes it of a read-only array: live, for "
             "numpy.from_dlpack(group) of NumPy 2.1. Raises BufferError where NumPy or the other package "
-            "takes no "
-            "read-only arrays, such as PyTorch 2.6.")
+            "takes no read-only arrays, such as PyTorch 2.6.")
         .def(
             "__dlpack_device__",
             [numbers](const Self& self) { return py::object(numbers(self).attr("__dlpack_device__")()); },
