@@ -36,13 +36,13 @@ function watchStatus() {
   };
 }
 
-const starts = [], wire = new Map();
+const starts = [], loaded = new Set();
 for (let n = 0; n < runs; n++) {
   const context = await browser.newContext({ viewport: { width: 1400, height: 900 } }), page = await context.newPage();
   await context.addInitScript(runAtOnce);
-  page.on('requestfinished', async (request) => {
+  page.on('requestfinished', (request) => {
     const path = new URL(request.url()).pathname;
-    if (!request.serviceWorker() && path.startsWith('/studio/') && !wire.has(path)) wire.set(path, brotliCompressSync(readFileSync(join(site, path.replace(/\/$/, '/index.html')))).length);
+    if (!request.serviceWorker() && path.startsWith('/studio/')) loaded.add(path);
   });
   await page.goto(address);
   await page.waitForFunction(() => window.moved);
@@ -51,6 +51,7 @@ for (let n = 0; n < runs; n++) {
 }
 const shown = (i) => `${median(starts.map((s) => s[i])).toFixed(0)} ms (${starts.map((s) => s[i].toFixed(0)).toSorted((a, b) => a - b).join(', ')})`;
 console.log(`start of ${runs} first visits: Run can be pressed after ${shown(0)}, the robot moves after ${shown(1)}`);
+const wire = new Map([...loaded].map((path) => [path, brotliCompressSync(readFileSync(join(site, path.replace(/\/$/, '/index.html')))).length]));
 const total = [...wire].reduce((sum, [path, size]) => sum + (path.endsWith('rest.wasm') ? 0 : size), 0);
 console.log(`first visit, with brotli: ${(total / 1e6).toFixed(2)} MB; forage-web.rest.wasm comes while the robot runs`);
 for (const [path, size] of [...wire].sort((a, b) => b[1] - a[1])) console.log(`  ${(size / 1e3).toFixed(0).padStart(6)} kB  ${path}`);
