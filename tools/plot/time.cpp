@@ -67,7 +67,7 @@ void draw_marks(Canvas& canvas, const TimePlot& plot, const Axes& axes, const Co
 
 void draw_curve(Canvas& canvas, const Axes& axes, const Curve& curve, const Colour& colour) {
     cairo_t* c = canvas.cairo();
-    cairo_set_line_join(c, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_join(c, CAIRO_LINE_JOIN_BEVEL);  // round ones differ from one version of cairo to the next
     bool pen_down = false;
     const auto to = [&](double x, double y) {
         pen_down ? cairo_line_to(c, axes.px(x), axes.py(y)) : cairo_move_to(c, axes.px(x), axes.py(y));
