@@ -6,6 +6,7 @@ import { apart, freshName } from '../edit/places';
 import { palette } from '../edit/palette.svelte';
 import { revealConnection } from '../edit/reveal';
 import { tools } from '../edit/tool.svelte';
+import type { Viewport } from '@xyflow/svelte';
 import type { Operation } from '../protocol/commands';
 import type { Process } from '../protocol/messages';
 import { actions } from '../stores/actions.svelte';
@@ -13,14 +14,21 @@ import { model } from '../stores/model.svelte';
 import { selection } from '../stores/selection.svelte';
 import { boxSize, clickedAnchor, facingAnchor, groupAt, inside, scale, toFile, type PageBox } from './diagram';
 import type { Point } from './line';
-import type { StageApi } from './Stage.svelte';
+
+/** What the flow of a pane offers to those outside of it. */
+export interface Stage {
+  /** From the window to a place of the page. */
+  toPage(e: { clientX: number; clientY: number }): Point;
+  /** Shows a part of the page, at once or within milliseconds. */
+  show(v: Viewport, duration?: number): void;
+}
 
 /** The pane as it is now; `process` is null on the page of the system. */
 interface Pane {
   uid: string;
   process: Process | null;
   boxes: Map<string, PageBox>;
-  stage: StageApi | null;
+  stage: Stage | null;
   canvas: HTMLElement | undefined;
 }
 
