@@ -1,5 +1,6 @@
 // The figure of a panel, which the server draws as `forage plot` does.
 import { model, outputState } from '../stores/model.svelte';
+import { run } from '../stores/run.svelte';
 import type { PanelState } from './registry';
 
 export interface Figure {
@@ -9,15 +10,15 @@ export interface Figure {
   from: number | null;
 }
 
-/** The figure of a panel at the cycle `now`; null for a kind of panel that has none. */
-export function figureOf(panel: PanelState, now: number, secondsPerCycle: number): Figure | null {
-  const since = (cycles: number) => Math.max(0, now - Math.round(cycles));
+/** The figure of a panel as the run is now; null for a kind of panel that has none. */
+export function figureOf(panel: PanelState): Figure | null {
+  const now = run.status?.cycle ?? 0, since = (cycles: number) => Math.max(0, now - Math.round(cycles));
   const group = model.group(panel.item ?? ''), connection = model.connection(panel.item ?? '');
   const source = group && `${group.path}:${(panel.state as string) || outputState(group)}`;
   switch (panel.kind) {
     case 'time':
       return panel.sources?.length
-        ? { plots: panel.sources.every((s) => s.endsWith(')')) && panel.sources.length <= 10 ? [`time:${panel.sources.join(', ')}`] : panel.sources.map((s) => `time:${s}`), from: since(((panel.window as number) ?? 30) / secondsPerCycle) }
+        ? { plots: panel.sources.every((s) => s.endsWith(')')) && panel.sources.length <= 10 ? [`time:${panel.sources.join(', ')}`] : panel.sources.map((s) => `time:${s}`), from: since(((panel.window as number) ?? 30) / model.perCycle) }
         : null;
     case 'raster':
       return source ? { plots: [`time:${source}`], from: since((panel.cycles as number) ?? 400) } : null;

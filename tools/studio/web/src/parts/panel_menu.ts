@@ -3,7 +3,8 @@ import type { IDockviewPanel } from 'dockview-core';
 import type { Entries, Entry } from '../edit/menu.svelte';
 import { dock } from '../stores/dock.svelte';
 import type { PanelState } from '../panels/registry';
-import { figureDialog } from './figure_dialog.svelte';
+import { figureOf } from '../panels/figures';
+import { dialogs } from './dialogs.svelte';
 import type { Found } from './finder';
 import { allSides, canMove, close, closeOthers, float, floats, join, maximize, move, reorder, resize, shares, sides, split, unfloat } from '../stores/moves';
 
@@ -21,7 +22,7 @@ export function panelMenu(p: IDockviewPanel): Entries {
   const panel = p.params as PanelState;
   const joins: Entry[] = stacks.map(({ group, name }) => ({ label: name, act: () => join(p, group) }));
   return [
-    ...(figureDialog.of(panel) ? [{ label: 'Export figure…', words: figureWords, act: () => figureDialog.open(panel) }, null] : []),
+    ...(figureOf(panel) ? [{ label: 'Export figure…', words: figureWords, act: () => (dialogs.figure = figureOf(panel)) }, null] : []),
     ...allSides.map((side) => ({ label: `Move ${side}`, keys: `Ctrl Shift ${sides[side].arrow}`, disabled: !canMove(p, side), act: () => move(p, side) })),
     // Move is for the whole window there.
     ...(floats(p) && shares(p) ? [null, ...allSides.map((side) => ({ label: `Split ${side}`, act: () => split(p, side) }))] : []),
