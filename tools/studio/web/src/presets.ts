@@ -1,6 +1,6 @@
 // Layouts that the studio brings: each is a list of panels with places, filled in where the system has the groups.
 import { flushSync } from 'svelte';
-import { dock, tutorialWidth } from './stores/dock.svelte';
+import { dock, kindOf, tutorialWidth } from './stores/dock.svelte';
 import { frame } from './stores/frame.svelte';
 import { model } from './stores/model.svelte';
 import { actions } from './stores/actions.svelte';
@@ -50,12 +50,11 @@ export function openTutorial(page?: string): void {
 }
 /** Opens the tutorial, or closes it when it is seen. */
 export function toggleTutorial(): void {
-  const shown = dock.api?.panels.find((p) => kindOf(p) === 'tutorial' && p.api.isVisible);
+  const shown = dock.seen('tutorial');
   if (!shown) return openTutorial();
   tutorial = { ...(shown.params as PanelState) };
   dock.api!.removePanel(shown);
 }
-const kindOf = (panel: { params?: unknown }) => (panel.params as PanelState).kind;
 
 /** Closes the panels that show a part of the system. */
 export function closePlots(): void {
@@ -64,7 +63,7 @@ export function closePlots(): void {
 
 /** Closes all panels but the tutorial, and opens the first one of an arrangement beside it. Returns its id, and the width of all but the tutorial. */
 function begin(first: PanelState): { main: string; width: number } {
-  const api = dock.api!, kept = api.panels.find((p) => kindOf(p) === 'tutorial');
+  const api = dock.api!, kept = dock.of('tutorial');
   dock.forgetRooms();
   for (const p of [...api.panels]) if (p !== kept) api.removePanel(p);
   const main = dock.open(first, kept ? { beside: kept.id, direction: frame.small ? 'above' : 'right' } : {})!;

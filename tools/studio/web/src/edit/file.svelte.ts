@@ -285,7 +285,7 @@ export async function saveWorld(): Promise<boolean> {
 }
 
 /** What the key saves: the world while its panel is the active one, else the system. */
-const inWorld = () => worldFile.document !== null && dock.shows('world');
+const inWorld = () => worldFile.document !== null && !!dock.api?.activePanel && dock.api.activePanel === dock.of('world');
 export const saveActive = () => (inWorld() && worldFile.dirty ? saveWorld() : save());
 export const saveActiveAs = () => fileDialog.open(inWorld() ? 'save the world' : 'save as');
 

@@ -17,7 +17,6 @@ export interface PanelProps {
   panel: PanelState;
   /** Keeps settings in the layout. */
   keep(settings: Partial<PanelState>): void;
-  setTitle(title: string): void;
 }
 
 interface PanelKind {

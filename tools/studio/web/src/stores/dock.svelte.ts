@@ -7,9 +7,9 @@ import { frame, type Room } from './frame.svelte';
 
 type Direction = 'left' | 'right' | 'above' | 'below' | 'within';
 /** Beside a panel, or without one at an edge of all. */
-type Where = { beside?: string; direction?: Direction; width?: number; height?: number; floating?: boolean; inactive?: boolean };
+type Where = { beside?: string; direction?: Direction; width?: number; height?: number; inactive?: boolean };
 
-const kindOf = (panel: { params?: unknown }) => (panel.params as PanelState).kind;
+export const kindOf = (panel: { params?: unknown }) => (panel.params as PanelState).kind;
 
 /** Gives the panels of a layout their least sizes. */
 function withLeast(layout: SerializedDockview): void {
@@ -21,7 +21,6 @@ export const tutorialWidth = (all: number): number => Math.round(Math.min(440, M
 
 class Dock {
   api: DockviewApi | null = null;
-  active = $state<string | null>(null);
   /** Whether panels are being arranged for a system that is opened; its kept layout does not come back then. */
   arranging = false;
   /** Keeps the arrangement for the next visit, after changes that dockview does not report. */
@@ -47,7 +46,7 @@ class Dock {
       return existing.id;
     }
     const id = `${panel.kind}-${++this.made}-${Date.now().toString(36)}`;
-    const beside = where.beside ? this.api.getPanel(where.beside) : undefined;
+    const beside = where.beside ? this.api.getPanel(where.beside) : undefined, { direction = 'within' } = where;
     this.api.addPanel({
       id,
       component: panel.kind,
@@ -55,27 +54,25 @@ class Dock {
       params: panel,
       ...kinds[panel.kind]!.least,
       inactive: where.inactive,
-      ...(where.width ? { initialWidth: where.width } : {}),
-      ...(where.height ? { initialHeight: where.height } : {}),
-      ...(where.floating
-        ? { floating: { width: 380, height: 300 } }
-        : beside
-        ? { position: { referencePanel: beside, direction: where.direction ?? 'within' } }
-        : where.direction && where.direction !== 'within'
-        ? { position: { direction: where.direction } }
-        : {}),
+      initialWidth: where.width,
+      initialHeight: where.height,
+      position: beside ? { referencePanel: beside, direction } : direction === 'within' ? undefined : { direction },
     });
     return id;
   }
 
-  /** Whether the active panel is of this kind. */
-  shows(kind: string): boolean {
-    return (this.api?.activePanel?.params as PanelState | undefined)?.kind === kind;
+  /** The first panel of a kind. */
+  of(kind: string): IDockviewPanel | undefined {
+    return this.api?.panels.find((p) => kindOf(p) === kind);
+  }
+  /** That of a kind, if it is seen. */
+  seen(kind: string): IDockviewPanel | undefined {
+    return this.api?.panels.find((p) => kindOf(p) === kind && p.api.isVisible);
   }
 
   /** Opens a panel as a tab beside one of another kind. */
   openBeside(panel: PanelState, kind: string): string | null {
-    return this.open(panel, { beside: this.api?.panels.find((p) => (p.params as PanelState).kind === kind)?.id });
+    return this.open(panel, { beside: this.of(kind)?.id });
   }
 
   /** A layout replaces all panels: what windows with other room had is discarded. */
@@ -93,7 +90,7 @@ class Dock {
 
   /** Shows the panels of a kept arrangement. A tutorial that is open stays, at its place in the text. */
   restore(layout: SerializedDockview): void {
-    const tutorial = this.api!.panels.find((p) => kindOf(p) === 'tutorial')?.params as PanelState | undefined;
+    const tutorial = this.of('tutorial')?.params as PanelState | undefined;
     for (const p of Object.values(layout.panels)) if (tutorial && kindOf(p) === 'tutorial') p.params = tutorial;
     withLeast(layout);
     this.api!.fromJSON(layout);
@@ -161,7 +158,7 @@ class Dock {
 
   /** Applies an edit of the system to the panels. Returns the ids of items whose panels were closed, one per panel. */
   follow(changes: NameChanges): string[] {
-    const closed: string[] = [], tutorial = this.api?.panels.find((p) => kindOf(p) === 'tutorial'), width = tutorial?.api.width;
+    const closed: string[] = [], tutorial = this.of('tutorial'), width = tutorial?.api.width;
     for (const p of [...(this.api?.panels ?? [])]) {
       const panel = p.params as PanelState, next = followed(panel, changes);
       if (next === panel) {
@@ -199,7 +196,7 @@ class Dock {
     const groups = this.api?.groups.filter((g) => g.activePanel && !['diagram', 'tutorial'].includes(kindOf(g.activePanel))) ?? [];
     const last = groups.flatMap((g) => g.panels).filter((p) => isPlot(p.params as PanelState)).pop();
     if (last) return this.open(panel, { beside: last.id, direction: last.api.height > 420 && frame.room === 'wide' ? 'below' : 'within' });
-    const diagram = this.api?.panels.find((p) => kindOf(p) === 'diagram' && p.api.isVisible);
+    const diagram = this.seen('diagram');
     if (diagram && diagram.api.width > 600) return this.open(panel, { beside: diagram.id, direction: 'right', width: Math.round(0.4 * diagram.api.width) });
     return this.open(panel, { beside: groups[0]?.activePanel?.id ?? this.main?.id });
   }
