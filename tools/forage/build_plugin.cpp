@@ -48,10 +48,8 @@ int build_plugin(const BuildPluginOptions& o) {
 }  // namespace
 
 void add_build_plugin(Program& program) {
-    auto& o = program.options<BuildPluginOptions>();
-    auto& command = program.add("build-plugin", "Compile a source file with types of your own",
-                                [&o] { return build_plugin(o); });
-    command.footer(
+    const auto [command, o] = program.add(
+        "build-plugin", "Compile a source file with types of your own", build_plugin,
         "The compiler is the one in CXX, or c++; CXXFLAGS are added.\nExample:\n  forage build-plugin "
         "adaptive.cpp");
     add_value(command, "FILE", o.source, " ", "Source file (.cpp)")->required();

@@ -44,12 +44,10 @@ int check(const RunInput& input) {
 }  // namespace
 
 void add_check(Program& program) {
-    auto& input = program.options<RunInput>();
-    auto& command = program.add("check", "Check a system (and a world) and report all mistakes",
-                                [&input] { return check(input); });
-    add_input(command, input);
-    command.footer(
+    const auto [command, input] = program.add(
+        "check", "Check a system (and a world) and report all mistakes", check,
         "Example:\n  forage check systems/reactive_foraging.iqr --world systems/worlds/basic_arena.world");
+    add_input(command, input);
 }
 
 }  // namespace forage::tool

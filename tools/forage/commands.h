@@ -13,6 +13,9 @@ namespace forage::tool {
 
 enum ExitStatus { fine = 0, run_failed = 1, bad_input = 2 };
 
+/// Prints a mistake of the user and a hint. Returns bad_input.
+int refused(const std::string& what, const std::string& hint);
+
 struct RunOptions {
     RunOptions() { spec.directory = "forage-out"; }
     RunSpec spec;

@@ -47,14 +47,11 @@ int convert(const ConvertOptions& options) {
 }  // namespace
 
 void add_convert(Program& program) {
-    auto& o = program.options<ConvertOptions>();
-    auto& command =
-        program.add("convert", "Read a system or process file and write it in the standard layout",
-                    [&o] { return convert(o); });
-    command.footer(
-        "Example:\n"
-        "  forage convert systems/reactive_foraging.iqr bug.iqrProcess --extract Bug\n"
-        "  forage convert systems/models/oja.iqr oja.cpp --as-plugin oja");
+    const auto [command, o] =
+        program.add("convert", "Read a system or process file and write it in the standard layout", convert,
+                    "Example:\n"
+                    "  forage convert systems/reactive_foraging.iqr bug.iqrProcess --extract Bug\n"
+                    "  forage convert systems/models/oja.iqr oja.cpp --as-plugin oja");
     add_value(command, "IN", o.input, "FILE", "File to read (.iqr or .iqrProcess)")->required();
     add_value(command, "OUT", o.output, "FILE",
               "File to write (.iqr or .iqrProcess; .cpp with --as-plugin); may be the same, or - to print it")

@@ -26,11 +26,8 @@ int describe(const DescribeOptions& options) {
 }  // namespace
 
 void add_describe(Program& program) {
-    auto& o = program.options<DescribeOptions>();
-    auto& command =
-        program.add("describe", "Show the processes, groups and connections of a system, with sizes",
-                    [&o] { return describe(o); });
-    command.footer(
+    const auto [command, o] = program.add(
+        "describe", "Show the processes, groups and connections of a system, with sizes", describe,
         "Example:\n"
         "  forage describe systems/reactive_foraging.iqr\n"
         "  forage describe systems/reactive_foraging.iqr --format latex > reactive_foraging.tex");
@@ -41,7 +38,7 @@ void add_describe(Program& program) {
         ->check(one_of({"text", "markdown", "latex", "dot", "json"}));
     for (const char* format : {"markdown", "latex", "dot", "json"})
         command.add_flag_callback(
-            std::string("--") + format, [&o, format] { o.format = format; },
+            std::string("--") + format, [&o = o, format] { o.format = format; },
             std::string("The same as --format ") + format);
 }
 

@@ -35,11 +35,9 @@ int edit(const EditOptions& o) try {
 }  // namespace
 
 void add_edit(Program& program) {
-    auto& o = program.options<EditOptions>();
-    auto& command = program.add(
+    const auto [command, o] = program.add(
         "edit", "Edit a system or a world as the studio does; everything else in the file stays as it is",
-        [&o] { return edit(o); });
-    command.footer(
+        edit,
         "Example:\n"
         "  forage edit mine.iqr '{\"do\": \"parameter\", \"id\": \"light\", \"name\": \"threshold\", "
         "\"value\": 0.3}'\n"

@@ -196,11 +196,9 @@ int experiment(const ExperimentOptions& o) {
 }
 
 void add_experiment(Program& program) {
-    auto& o = program.options<ExperimentOptions>();
-    auto& command = program.add("experiment",
-                                "Run a system many times, with different seeds and parameters, on all cores",
-                                [&o] { return experiment(o); });
-    command.footer(
+    const auto added = program.add(
+        "experiment", "Run a system many times, with different seeds and parameters, on all cores",
+        experiment,
         "Runs that were finished before an interruption are not repeated. docs/reference/experiment.md\n"
         "describes FILE.\n"
         "Example:\n"
@@ -208,6 +206,8 @@ void add_experiment(Program& program) {
         "On a cluster (docs/how-to/cluster.md):\n"
         "  forage experiment systems/light_threshold.xml --slurm --partition short --time 1:00:00\n"
         "  forage experiment systems/light_threshold.xml --status");
+    CLI::App& command = added.app;
+    ExperimentOptions& o = added.options;
     add_value(command, "FILE", o.file, " ", "Experiment file (.xml)")->required();
     add_value(command, "-o,--output", o.directory, "DIR",
               "Directory for results [forage-out/ and FILE's name]")
@@ -267,16 +267,10 @@ void add_experiment(Program& program) {
     };
     pass_on("--partition", "With --slurm: the partition", "NAME");
     pass_on("--time", "With --slurm: the time limit of a part", "TIME");
-    command
-        .add_option_function<std::vector<std::string>>(
-            "--sbatch",
-            [&o](const std::vector<std::string>& more) {
-                o.sbatch.insert(o.sbatch.end(), more.begin(), more.end());
-            },
-            "With --slurm: another option of sbatch, such as --account=ME")
+    add_each(
+        command, "--sbatch", [&o](const std::string& option) { o.sbatch.push_back(option); }, "OPTION",
+        "With --slurm: another option of sbatch, such as --account=ME")
         ->needs(slurm)
-        ->allow_extra_args(false)
-        ->option_text("OPTION")
         ->group(cluster);
 }
 

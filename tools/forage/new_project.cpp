@@ -52,11 +52,6 @@ std::string filled(std::string text, const std::string& name, const std::string&
     return text;
 }
 
-int refused(const std::string& what, const std::string& hint) {
-    print(stderr, "error: {}\n  hint: {}\n", what, hint);
-    return bad_input;
-}
-
 /// Writes files, given by name and text, unless one of them exists.
 int write_new(const std::vector<std::pair<std::string, std::string>>& files) {
     for (const auto& [file, text] : files)
@@ -125,11 +120,9 @@ int create(const NewOptions& o) {
 }  // namespace
 
 void add_new(Program& program) {
-    auto& o = program.options<NewOptions>();
-    auto& command =
+    const auto [command, o] =
         program.add("new", "Write the beginning of a system, or a small project with a type of your own",
-                    [&o] { return create(o); });
-    command.footer("Example:\n  forage new system mine --robot\n  forage new neuron adaptive");
+                    create, "Example:\n  forage new system mine --robot\n  forage new neuron adaptive");
     add_value(command, "KIND", o.kind, " ", "system, neuron, synapse or module")
         ->required()
         ->check(one_of({"system", "neuron", "synapse", "module"}));

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/number.h"
+#include "core/base/print.h"
 #include "core/base/separated.h"
 #include "core/run/experiment/parts.h"
 
@@ -30,6 +31,11 @@ CLI::Validator number_that(bool (*fits)(double), const char* description) {
 }
 
 }  // namespace
+
+int refused(const std::string& what, const std::string& hint) {
+    print(stderr, "error: {}\n  hint: {}\n", what, hint);
+    return bad_input;
+}
 
 CLI::Validator named(const std::string& what) {
     return {[what](const std::string& name) {
@@ -84,13 +90,19 @@ CLI::Option* repeated(CLI::Option* option) {
     return option->expected(1)->allow_extra_args(false)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
 }
 
+CLI::Option* add_each(CLI::App& command, const char* name, std::function<void(const std::string&)> take,
+                      const char* value, const char* description) {
+    const auto take_all = [take = std::move(take)](const std::vector<std::string>& texts) {
+        std::ranges::for_each(texts, take);
+    };
+    return repeated(command.add_option_function<std::vector<std::string>>(name, take_all, description))
+        ->option_text(value);
+}
+
 CLI::Option* add_texts(CLI::App& command, const char* name, std::vector<model::Expression>& list,
                        const char* description, const char* value) {
-    const auto add = [&list](const std::vector<std::string>& texts) {
-        for (const auto& text : texts) list.push_back({text});
-    };
-    return repeated(command.add_option_function<std::vector<std::string>>(name, add, description))
-        ->option_text(value);
+    const auto add = [&list](const std::string& text) { list.push_back({text}); };
+    return add_each(command, name, add, value, description);
 }
 
 CLI::Option* add_plot_format(CLI::App& command, std::string& format) {

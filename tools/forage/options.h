@@ -33,6 +33,9 @@ CLI::Option* add_value(CLI::App& command, const char* name, T& to, const char* v
 }
 /// Makes an option repeatable, with one value each time.
 CLI::Option* repeated(CLI::Option* option);
+/// Adds a repeatable option; `take` gets each of its values.
+CLI::Option* add_each(CLI::App& command, const char* name, std::function<void(const std::string&)> take,
+                      const char* value, const char* description);
 /// Adds a repeatable option; each of its values is added to `list`.
 CLI::Option* add_texts(CLI::App& command, const char* name, std::vector<model::Expression>& list,
                        const char* description, const char* value);
@@ -43,6 +46,13 @@ void add_input(CLI::App& command, RunInput& input);
 
 /// Adds the command `studio`, which two programs have.
 CLI::App& declare_studio(CLI::App& app, StudioCommand& o);
+
+/// A command, and its options, which live as long as the program.
+template <class Options>
+struct Command {
+    CLI::App& app;
+    Options& options;
+};
 
 /// The commands of the program, and what each of them does.
 class Program {
@@ -58,7 +68,15 @@ class Program {
         options_.push_back(made);
         return *made;
     }
-    /// Adds a command; `act` returns the exit status.
+    /// Adds a command. `act` returns the exit status; `footer` ends the help.
+    template <class Options>
+    Command<Options> add(const std::string& name, const std::string& description, int (*act)(const Options&),
+                         const std::string& footer) {
+        auto& o = options<Options>();
+        auto& command = add(name, description, [act, &o] { return act(o); });
+        command.footer(footer);
+        return {command, o};
+    }
     CLI::App& add(const std::string& name, const std::string& description, std::function<int()> act) {
         auto& command = *app_.add_subcommand(name, description);
         on(command, std::move(act));

@@ -40,45 +40,33 @@ auto parsed(const char* option, const std::string& text, Parse parse) {
 
 void add_manipulations(CLI::App& run, RunSpec& o) {
     using Mode = model::ManipulationSpec::Mode;
-    const auto add = [&](const char* option, Mode mode, const char* description, const char* text) {
-        repeated(run.add_option_function<std::vector<std::string>>(
-                     option,
-                     [&o, option, mode](const std::vector<std::string>& texts) {
-                         for (const auto& each : texts) {
-                             model::ManipulationSpec spec;
-                             spec.mode = mode, spec.table = {each}, spec.text = each;
-                             std::error_code none;
-                             if (!exists(std::filesystem::symlink_status(each, none)))  // may have '='
-                                 spec = parsed(option, each,
-                                               [&] { return expression::parse_manipulation(mode, each); });
-                             o.manipulations.push_back(std::move(spec));
-                         }
-                     },
-                     description))
-            ->option_text(text);
+    const auto add = [&](const char* option, Mode mode, const char* description) {
+        const auto take = [&o, option, mode](const std::string& text) {
+            model::ManipulationSpec spec;
+            spec.mode = mode, spec.table = {text}, spec.text = text;
+            std::error_code none;
+            if (!exists(std::filesystem::symlink_status(text, none)))  // may have '='
+                spec = parsed(option, text, [&] { return expression::parse_manipulation(mode, text); });
+            o.manipulations.push_back(std::move(spec));
+        };
+        add_each(run, option, take, "MANIPULATION", description);
     };
     add("--clamp", Mode::clamp,
         "Overwrite the activity of a group: 'Process/Group(x,y)=value' sets a cell, and all others to 0; "
         "'Process/Group=FILE' applies a list of patterns; FILE is a table of rows "
         "cycle,process,group,v0,v1,...; options follow ';', such as '; every 10; until trial 5'. See "
-        "docs/reference/expressions.md; may be repeated",
-        "MANIPULATION");
-    add("--add", Mode::add, "Add to the activity of a group, after any --clamp; written as for --clamp",
-        "MANIPULATION");
+        "docs/reference/expressions.md; may be repeated");
+    add("--add", Mode::add, "Add to the activity of a group, after any --clamp; written as for --clamp");
     add("--multiply", Mode::multiply,
-        "Multiply the activity of a group, after any --add; written as for --clamp", "MANIPULATION");
+        "Multiply the activity of a group, after any --add; written as for --clamp");
 }
 
 void add_recording(CLI::App& run, RunSpec& o) {
-    auto* record = repeated(run.add_option_function<std::vector<std::string>>(
-                                "-r,--record",
-                                [&o](const std::vector<std::string>& texts) {
-                                    for (const auto& text : texts) o.recordings.push_back({{text}});
-                                },
-                                "Write 'Process/Group' (its activity) or 'Process/Group:state' to a file; "
-                                "'...(x1..x2,y1..y2)' for some of its cells, 'mean(...)' for their mean, "
-                                "'...=NAME.h5' to name the file; may be repeated"))
-                       ->option_text("SOURCE");
+    auto* record = add_each(
+        run, "-r,--record", [&o](const std::string& text) { o.recordings.push_back({{text}}); }, "SOURCE",
+        "Write 'Process/Group' (its activity) or 'Process/Group:state' to a file; "
+        "'...(x1..x2,y1..y2)' for some of its cells, 'mean(...)' for their mean, "
+        "'...=NAME.h5' to name the file; may be repeated");
     add_value(run, "--format", o.record.format, "FORMAT",
               "Format of recordings without a file name: csv, npy, npz (NumPy), h5 (HDF5) or dat (the "
               "original's data sampler) [csv]")
@@ -187,19 +175,15 @@ void add_run_options(CLI::App& run, RunOptions& options) {
     add_recording(run, o);
     add_value(run, "--until", o.length.until.text, "WHEN",
               "Stop early when a condition holds, as for --schedule");
-    repeated(
-        run.add_option_function<std::vector<std::string>>(
-            "--schedule",
-            [&o](const std::vector<std::string>& texts) {
-                for (const auto& text : texts)
-                    o.changes.push_back(
-                        parsed("--schedule", text, [&] { return expression::parse_change(text); }));
-            },
-            "Change a parameter when a condition first holds: 'cycle N', 'trial N', 'N s', or comparisons of "
-            "cycle, trial, seconds, cells 'Process/Group(x,y)' and mean(Process/Group), joined by 'and' and "
-            "'or'. Instead of WHERE=VALUE, 'move NAME=X,Y' moves a robot or an object (m), and 'begin_trial' "
-            "ends a trial. See docs/reference/expressions.md; may be repeated"))
-        ->option_text("'WHEN: WHERE=VALUE'");
+    const auto schedule = [&o](const std::string& text) {
+        o.changes.push_back(parsed("--schedule", text, [&] { return expression::parse_change(text); }));
+    };
+    add_each(
+        run, "--schedule", schedule, "'WHEN: WHERE=VALUE'",
+        "Change a parameter when a condition first holds: 'cycle N', 'trial N', 'N s', or comparisons of "
+        "cycle, trial, seconds, cells 'Process/Group(x,y)' and mean(Process/Group), joined by 'and' and "
+        "'or'. Instead of WHERE=VALUE, 'move NAME=X,Y' moves a robot or an object (m), and 'begin_trial' "
+        "ends a trial. See docs/reference/expressions.md; may be repeated");
     add_value(run, "--replay", o.input.replay, "FILE",
               "Table that modules of type moduleReplay play: cycle,process,target,v0,v1,...");
     add_manipulations(run, o);
@@ -292,19 +276,16 @@ void add_run(Program& program) {
 }
 
 void add_explain(Program& program) {
-    auto& options = program.options<RunOptions>();
-    options.spec.explain = true;
-    options.spec.directory.clear();
-    auto& explain =
-        program.add("explain", "Run a system, and tell what its groups did and why some were silent",
-                    [&options] { return run(options); });
-    explain.footer(
+    const auto [explain, options] = program.add(
+        "explain", "Run a system, and tell what its groups did and why some were silent", run,
         "Prints the mean, least and largest activity and inputs of every group, which groups nothing "
         "drives,\n"
         "which thresholds were never reached, and the way back from a silent motor to the first silent "
         "group.\n"
         "Example:\n"
         "  forage explain systems/reactive_foraging_exercise.iqr --world systems/worlds/basic_arena.world");
+    options.spec.explain = true;
+    options.spec.directory.clear();
     add_run_options(explain, options);
     for (const char* name : {"--checkpoint-every", "--discard-checkpoint", "--remote",
                              "--bundle"})  // a resumed run explains nothing

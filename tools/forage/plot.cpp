@@ -47,10 +47,8 @@ int plot(const PlotOptions& o) {
 }  // namespace
 
 void add_plot(Program& program) {
-    auto& o = program.options<PlotOptions>();
-    auto& command = program.add("plot", "Draw pictures of results, of a recording or of a system",
-                                [&o] { return plot(o); });
-    command.footer(
+    const auto [command, o] = program.add(
+        "plot", "Draw pictures of results, of a recording or of a system", plot,
         "Plots:\n"
         "  time:SOURCE                     cells over time; 'time:mean(SOURCE)' for their mean\n"
         "  space:SOURCE@100,200            the group as a picture at these cycles; without '@' at the last "

@@ -76,11 +76,8 @@ int rerun(const RerunOptions& o) {
 }  // namespace
 
 void add_rerun(Program& program) {
-    auto& o = program.options<RerunOptions>();
-    auto& command =
-        program.add("rerun", "Repeat a run or an experiment, and compare the results with those of before",
-                    [&o] { return rerun(o); });
-    command.footer(
+    const auto [command, o] = program.add(
+        "rerun", "Repeat a run or an experiment, and compare the results with those of before", rerun,
         "Of a bundle, inputs/ has the files, expected/ the results of before, results/ those of now.\n"
         "'forage run --bundle paper.zip' writes a bundle.\n"
         "Example:\n"

@@ -89,14 +89,12 @@ int resume(const ResumeOptions& o) {
     const std::string directory = (whole_directory ? given : given.parent_path()).string();
     std::vector<std::string> paths = {given.string()};
     if (whole_directory) paths = {checkpoint_path(directory), previous_checkpoint_path(directory)};
-    if (whole_directory && !fs::exists(paths[0]) && !fs::exists(paths[1])) {
-        print(stderr, "error: there is no checkpoint in '{}'\n  hint: {}\n", o.path,
-              fs::exists(given / "run.json")
-                  ? "the run is finished, or was made without --checkpoint-every"
-                  : "a run writes checkpoints with --checkpoint-every, into its directory (-o)");
-        return bad_input;
-    }
-    std::string refused;
+    if (whole_directory && !fs::exists(paths[0]) && !fs::exists(paths[1]))
+        return refused(fmt::format("there is no checkpoint in '{}'", o.path),
+                       fs::exists(given / "run.json")
+                           ? "the run is finished, or was made without --checkpoint-every"
+                           : "a run writes checkpoints with --checkpoint-every, into its directory (-o)");
+    std::string unusable;
     for (const auto& path : paths) try {
             if (whole_directory && !fs::exists(path)) continue;  // killed between two renames
             const auto found = open_checkpoint(path);
@@ -115,36 +113,31 @@ int resume(const ResumeOptions& o) {
             auto prepared = restore(*found, options.spec, sources, diagnostics);
             if (diagnostics.failed() || !options.quiet) print(stderr, "{}", format(diagnostics));
             if (!prepared) return bad_input;
-            if (!refused.empty()) print(stderr, "warning: {}\n", refused);
-            if (!refused.empty() || !options.quiet)
+            if (!unusable.empty()) print(stderr, "warning: {}\n", unusable);
+            if (!unusable.empty() || !options.quiet)
                 print(stderr, "continuing from cycle {}\n", prepared->run.cycle());
             // A newer checkpoint that is damaged or not wanted must not be kept instead of this one.
             if (path != checkpoint_path(directory)) fs::remove(checkpoint_path(directory));
             return run_to_end(options, *prepared);
         } catch (const CheckpointError& e) {
-            refused += (refused.empty() ? "" : "\n") + std::string(e.what());
+            unusable += (unusable.empty() ? "" : "\n") + std::string(e.what());
         } catch (const ArchiveError& e) {
-            refused += fmt::format("{}checkpoint '{}': {}", refused.empty() ? "" : "\n", path, e.what());
+            unusable += fmt::format("{}checkpoint '{}': {}", unusable.empty() ? "" : "\n", path, e.what());
         } catch (const observe::ShortFile& e) {
-            refused += fmt::format("{}checkpoint '{}': {}", refused.empty() ? "" : "\n", path, e.what());
+            unusable += fmt::format("{}checkpoint '{}': {}", unusable.empty() ? "" : "\n", path, e.what());
         }
-    print(stderr,
-          "error: {}\n  hint: start the run again; name the directory of results of a run with "
-          "--checkpoint-every\n",
-          refused);
-    return bad_input;
+    return refused(unusable,
+                   "start the run again; name the directory of results of a run with --checkpoint-every");
 }
 
 }  // namespace
 
 void add_resume(Program& program) {
-    auto& o = program.options<ResumeOptions>();
-    auto& command =
-        program.add("resume", "Continue a stopped run from its checkpoint", [&o] { return resume(o); });
-    command.footer(
-        "The files are then the same, byte for byte, as those of a run that was never stopped.\n"
-        "Example:\n"
-        "  forage resume forage-out");
+    const auto [command, o] =
+        program.add("resume", "Continue a stopped run from its checkpoint", resume,
+                    "The files are then the same, byte for byte, as those of a run that was never stopped.\n"
+                    "Example:\n"
+                    "  forage resume forage-out");
     add_value(command, "FROM", o.path, "DIR|FILE", "Directory of results, or one of the checkpoints in it")
         ->required();
     add_value(command, "--threads", o.threads, "N",

@@ -49,10 +49,8 @@ void ask_for_trust(const RunInput& input) {
 }
 
 void add_trust(Program& program) {
-    auto& o = program.options<TrustOptions>();
-    auto& command = program.add("trust", "List the folders whose plugins are loaded, or add one",
-                                [&o] { return trust(o); });
-    command.footer(
+    const auto [command, o] = program.add(
+        "trust", "List the folders whose plugins are loaded, or add one", trust,
         "Plugins are programs. A run loads those in the folder plugins beside its system only if this folder "
         "is trusted;\n--plugin PATH and FORAGE_PLUGIN_PATH need no trust.\nExample:\n  forage trust plugins");
     add_value(command, "FOLDER", o.folder, " ", "Folder with plugins (.so), or with a folder plugins");

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "core/base/installation.h"
 #include "core/base/print.h"
 #include "core/base/sequence.h"
@@ -92,13 +94,11 @@ int tutorial(const TutorialOptions& o) {
         return o.exercise.empty() || e.number.starts_with(o.exercise + ".");
     };
     const auto first = std::ranges::find_if(all, in_part);
-    if (first != all.end() && !o.system.empty()) {
-        print(stderr,
-              "error: which exercise?\n  hint: 'forage tutorial {} --system FILE' checks a file for the "
-              "first one; without --system, the exercises are listed\n",
-              first->number);
-        return bad_input;
-    }
+    if (first != all.end() && !o.system.empty())
+        return refused("which exercise?",
+                       fmt::format("'forage tutorial {} --system FILE' checks a file for the first one; "
+                                   "without --system, the exercises are listed",
+                                   first->number));
     if (first != all.end()) {
         for (const auto& e : all) {
             if (!in_part(e)) continue;
@@ -114,11 +114,9 @@ int tutorial(const TutorialOptions& o) {
     if (fs::path(o.exercise).extension() == ".xml")
         return experiment({.file = o.exercise, .directory = o.directory, .system = o.system});
     const auto wanted = std::ranges::find_if(all, [&](const auto& e) { return e.number == o.exercise; });
-    if (wanted == all.end()) {
-        print(stderr, "error: there is no exercise '{}'\n  hint: {}\n", o.exercise,
-              suggest(o.exercise, collected(all, &TutorialExercise::number)));
-        return bad_input;
-    }
+    if (wanted == all.end())
+        return refused(fmt::format("there is no exercise '{}'", o.exercise),
+                       suggest(o.exercise, collected(all, &TutorialExercise::number)));
     const std::string own = o.system.empty() ? "" : "-own";
     const std::string directory =
         o.directory.empty() ? "forage-out/tutorial/" + wanted->number + own : o.directory;
@@ -140,14 +138,12 @@ int tutorial(const TutorialOptions& o) {
 }  // namespace
 
 void add_tutorial(Program& program) {
-    auto& o = program.options<TutorialOptions>();
-    auto& command = program.add("tutorial", "List the exercises of the tutorial, or run one",
-                                [&o] { return tutorial(o); });
-    command.footer(
-        "docs/tutorial has the text, the questions and their solutions.\n"
-        "Example:\n"
-        "  forage tutorial 3.1\n"
-        "  forage tutorial 2.2 --system mine.iqr");
+    const auto [command, o] =
+        program.add("tutorial", "List the exercises of the tutorial, or run one", tutorial,
+                    "docs/tutorial has the text, the questions and their solutions.\n"
+                    "Example:\n"
+                    "  forage tutorial 3.1\n"
+                    "  forage tutorial 2.2 --system mine.iqr");
     add_value(command, "EXERCISE", o.exercise, " ",
               "Number of an exercise or of a part, or an experiment file");
     add_value(command, "--system", o.system, "FILE",

@@ -180,28 +180,23 @@ int types(const TypesOptions& o) {
     std::vector<std::string> all = names(registry.neurons());
     for (const auto& n : names(registry.synapses())) all.push_back(n);
     for (const auto& n : names(registry.modules())) all.push_back(n);
-    print(stderr, "error: there is no type '{}'\n  hint: {}\n", o.name, suggest(o.name, all));
-    return bad_input;
+    return refused(fmt::format("there is no type '{}'", o.name), suggest(o.name, all));
 }
 
 }  // namespace
 
 void add_types(Program& program) {
-    auto& o = program.options<TypesOptions>();
-    auto& command = program.add(
+    const auto [command, o] = program.add(
         "types",
-        "List the neuron, synapse and module types, or describe one, or those that a system declares",
-        [&o] { return types(o); });
-    command.footer("Example:\n  forage types neuronLinearThreshold\n  forage types model.iqr");
+        "List the neuron, synapse and module types, or describe one, or those that a system declares", types,
+        "Example:\n  forage types neuronLinearThreshold\n  forage types model.iqr");
     add_value(command, "NAME", o.name, " ", "The type to describe, or a system file (.iqr)");
     add_plugins(command, o.plugins);
 }
 
 void add_schema(Program& program) {
-    auto& o = program.options<SchemaOptions>();
-    auto& command = program.add("schema", "Print a RELAX NG schema of system files, for editors",
-                                [&o] { return schema(o); });
-    command.footer("Example:\n  forage schema > iqr.rng");
+    const auto [command, o] = program.add("schema", "Print a RELAX NG schema of system files, for editors",
+                                          schema, "Example:\n  forage schema > iqr.rng");
     command.add_flag("--experiment", o.of_experiments, "The schema of experiment files instead");
     command.add_flag("--markdown", o.markdown,
                      "The elements of system files and the types, as tables in Markdown, instead");

@@ -1,6 +1,8 @@
 #include <cstdio>
 #include <filesystem>
 
+#include <fmt/format.h>
+
 #include "core/base/print.h"
 #include "tools/api/experiment/results.h"
 #include "tools/forage/commands.h"
@@ -10,12 +12,9 @@ namespace forage::tool {
 namespace {
 
 int view(const std::string& directory) {
-    if (!std::filesystem::is_directory(directory)) {
-        print(stderr,
-              "error: '{}' is not a directory\n  hint: name a directory of results, such as forage-out\n",
-              directory);
-        return bad_input;
-    }
+    if (!std::filesystem::is_directory(directory))
+        return refused(fmt::format("'{}' is not a directory", directory),
+                       "name a directory of results, such as forage-out");
     Diagnostics diagnostics;
     const std::string file = write_page(directory, diagnostics);
     print(stderr, "{}", format(diagnostics));
@@ -26,11 +25,10 @@ int view(const std::string& directory) {
 }  // namespace
 
 void add_view(Program& program) {
-    auto& directory = program.options<std::string>();
+    const auto [command, directory] =
+        program.add("view", "Write a page, index.html, with the pictures and tables of results", view,
+                    "Example:\n  forage view forage-out");
     directory = "forage-out";
-    auto& command = program.add("view", "Write a page, index.html, with the pictures and tables of results",
-                                [&directory] { return view(directory); });
-    command.footer("Example:\n  forage view forage-out");
     add_value(command, "DIR", directory, " ", "Directory of results [forage-out]");
 }
 

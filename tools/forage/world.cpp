@@ -71,11 +71,9 @@ int world(const WorldCommand& o) {
 }  // namespace
 
 void add_world(Program& program) {
-    auto& o = program.options<WorldCommand>();
-    auto& command = program.add(
+    const auto [command, o] = program.add(
         "world", "Check a world, list its contents and draw it from above; or the data sheet of a robot",
-        [&o] { return world(o); });
-    command.footer(
+        world,
         "Example:\n"
         "  forage world systems/worlds/basic_arena.world -o forage-out/basic_arena.png\n"
         "  forage world systems/worlds/basic_arena.world --robot Bug -o forage-out/bug.png");
