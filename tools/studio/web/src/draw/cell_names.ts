@@ -46,22 +46,21 @@ interface AxisLabel {
   at: number;
 }
 
-/** The names that fit beside `length` pixels: the ends first, then the middle, then the others. A run of the same name has one label. */
+/** As many names as fit beside `length` pixels, at even distances, with the first and the last, and the one in the middle, if there is one. A run of the same name has one label. */
 export function axisLabels(names: string[], length: number, sizeOf: (text: string) => number, gap = 8): AxisLabel[] {
-  const step = length / names.length, runs: { text: string; middle: number }[] = [];
+  const step = length / names.length, labels: (AxisLabel & { end: number })[] = [];
   for (let i = 0; i < names.length;) {
     let end = i + 1;
     while (end < names.length && names[end] === names[i]) end++;
-    runs.push({ text: names[i]!, middle: ((i + end) / 2) * step });
+    const text = names[i]!, at = ((i + end) / 2) * step, size = sizeOf(text), start = Math.max(0, Math.min(length - size, at - size / 2));
+    labels.push({ text, start, at, end: start + size });
     i = end;
   }
-  const order = [0, runs.length - 1, Math.floor((runs.length - 1) / 2), ...runs.keys()];
-  const out = new Map<number, AxisLabel & { end: number }>();
-  for (const k of order) {
-    const { text, middle } = runs[k]!, size = sizeOf(text);
-    if (!text || out.has(k) || size > length) continue;
-    const start = Math.max(0, Math.min(length - size, middle - size / 2)), end = start + size;
-    if ([...out.values()].every((o) => end + gap <= o.start || start >= o.end + gap)) out.set(k, { text, start, at: middle, end });
+  const last = labels.length - 1;
+  for (let parts = Math.min(last, Math.floor(length / 8)); parts >= 0; parts--) { // a letter takes 8 pixels
+    if (last % 2 === 0 && parts % 2 === 1 && parts > 1) continue; // without the one in the middle
+    const some = Array.from({ length: parts + 1 }, (_, i) => labels[parts ? Math.round((i * last) / parts) : 0]!).filter((l) => l.text);
+    if (some.every((l, i) => l.end - l.start <= length && (i === 0 || some[i - 1]!.end + gap <= l.start))) return some.map(({ text, start, at }) => ({ text, start, at }));
   }
-  return [...out.values()].sort((a, b) => a.start - b.start).map(({ text, start, at }) => ({ text, start, at }));
+  return [];
 }

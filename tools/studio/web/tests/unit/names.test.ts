@@ -27,11 +27,14 @@ describe('names of cells', () => {
     expect(directionWords({ names: memory, width: 5, height: 5 })).toEqual([]);
     expect(directionWords({ names: null, width: 5, height: 1 })).toEqual([]);
   });
-  it('stand on an axis as far as they fit: the ends and the middle first, once for neighbours of the same name', () => {
+  it('stand on an axis as far as they fit: at even distances, with the ends and the middle, once for neighbours of the same name', () => {
     const size = (text: string) => 10 * text.length;
     expect(axisLabels(['aa', 'aa', 'bb', 'bb'], 100, size)).toEqual([{ text: 'aa', start: 15, at: 25 }, { text: 'bb', start: 65, at: 75 }]);
     expect(axisLabels(['left', 'c', 'd', 'straight', 'e', 'f', 'right'], 200, size).map((l) => l.text)).toEqual(['left', 'straight', 'right']);
     expect(axisLabels(['much too long'], 50, size)).toEqual([]);
+    const motor = ['left 100', 'left 75', 'left 50', 'left 25', 'straight', 'right 25', 'right 50', 'right 75', 'right 100'];
+    expect(axisLabels(motor, 500, size).map((l) => l.text)).toEqual(['left 100', 'left 50', 'straight', 'right 50', 'right 100']);
+    expect(axisLabels(motor, 400, size).map((l) => l.text)).toEqual(['left 100', 'straight', 'right 100']);
   });
 });
 
