@@ -33,6 +33,6 @@ export function extent(values: ArrayLike<number>): [number, number] {
 export function short(v: number): string {
   if (!Number.isFinite(v)) return Number.isNaN(v) ? '–' : String(v);
   const a = Math.abs(v);
-  if (a !== 0 && (a < 0.001 || a >= 100000)) return v.toExponential(1);
+  if (a !== 0 && (a < 0.001 || a >= 100000)) return v.toExponential(1).replace('.0e', 'e');
   return String(Number(v.toPrecision(4)));
 }

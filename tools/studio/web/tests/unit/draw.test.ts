@@ -18,7 +18,7 @@ describe('scales', () => {
     expect(axisScale({ mode: 'expand', low: 0, high: 9 }, -1, 4)).toEqual({ mode: 'expand', low: -1.5, high: 9 });
     expect(axisScale({ mode: 'manual', low: 0, high: 9 }, -1, 40)).toEqual({ mode: 'manual', low: 0, high: 9 });
   });
-  it('writes numbers shortly', () => expect([0, 0.123456, 1e-7, NaN].map(short)).toEqual(['0', '0.1235', '1.0e-7', '–']));
+  it('writes numbers shortly', () => expect([0, 0.123456, 1e-7, NaN].map(short)).toEqual(['0', '0.1235', '1e-7', '–']));
 });
 
 describe('heat maps', () => {
