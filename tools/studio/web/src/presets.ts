@@ -20,12 +20,15 @@ export const presets: Preset[] = [
 ];
 
 const find = (name: string) => model.groups.find((g) => (name.startsWith('/') ? `/${g.name}`.startsWith(name) : g.path === name));
+/** The groups that modules write, or read: what the robot senses, or does. */
+const ofModules = (ports: 'outputs' | 'inputs') => model.processes.flatMap((p) => p.module?.[ports] ?? []).map((port) => model.group(port.group)).filter((g) => g !== undefined);
 
 /** Opens the panels of a preset, and closes others. */
 export function applyPreset(preset: Preset): void {
   if (preset.diagram) return build(false);
   if (model.groups.length === 0) return build(frame.room === 'wide');
   const spaces = preset.spaces.map(find).filter((g) => g !== undefined);
+  if (spaces.length < Math.min(2, preset.spaces.length)) spaces.splice(0, 2, ...ofModules('outputs').slice(0, 2), ...ofModules('inputs').slice(0, 1));
   if (spaces.length === 0) spaces.push(...model.groups.slice(0, 2));
   const times = preset.times.map(find).filter((g) => g !== undefined);
   const faint = (preset.faint ?? []).map(find);
