@@ -262,8 +262,8 @@ std::optional<plot::Picture> draw_learning(const PlotSpec& spec, const std::vect
     plot::LinesPlot out{title, {}, "trial", spec.what.empty() ? "share of trials at the target" : spec.what,
                         {},    {}, {}};
     if (spec.what.empty() && trials.size() == 1 && trials.front().size() == 1) {
-        out.subtitle = fmt::format("{}{}mean of the last {} trials, with its 95 % interval", part,
-                                   part.empty() ? "" : "; ", learning_window);
+        out.subtitle = fmt::format("{}{}mean of the last {} trials, or of all so far, with its 95 % interval",
+                                   part, part.empty() ? "" : "; ", learning_window);
         out.lines = {running_share(trials.front().front())};
         return plot::lines_plot(out);
     }
