@@ -131,8 +131,15 @@ class FileDialog {
     if (action === 'open' || action === 'new' || action === 'world') void request('shipped').then((r) => ((this.shipped = r.worlds), (this.templates = r.systems.filter((s) => s.kind === 'template' || s.kind === 'recipe'))), () => {});
     if (action === 'open') void request('recent').then((r) => (this.recent = r.files), () => {});
   }
-  /** Opens the dialog for a file of a panel. */
-  choose(task: FileTask, action: FileAction | null = null): void {
+  /** Opens the dialog for a file that a panel reads: one with this ending, or one of these. */
+  toRead(title: string, files: string | RegExp, act: FileTask['act'], verb = 'Open'): void {
+    this.choose({ title, verb, ...(typeof files === 'string' ? { ending: files } : { files }), act });
+  }
+  /** Opens it for a file that a panel writes, with this name unless the user has another. */
+  toWrite(title: string, name: string, act: FileTask['act']): void {
+    this.choose({ title, verb: 'Save', ending: name.replace(/.*(?=\.)/, ''), name, act });
+  }
+  private choose(task: FileTask, action: FileAction | null = null): void {
     this.settle();
     this.closed = new Promise((settle) => (this.settle = settle));
     this.task = task;
