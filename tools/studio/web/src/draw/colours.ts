@@ -13,18 +13,16 @@ function hue(i: number): number[] {
   return [channel(0), channel(4), channel(2)];
 }
 
+/** The colour at a part of the way along some samples. */
+function between(map: number[][], part: number): number[] {
+  const position = part * (map.length - 1), low = Math.min(Math.floor(position), map.length - 2);
+  return map[low]!.map((v, c) => v + (position - low) * (map[low + 1]![c]! - v));
+}
+
 function build(name: MapName): Uint32Array {
   const out = new Uint32Array(256);
   for (let i = 0; i < 256; i++) {
-    let rgb: number[];
-    if (name === 'hue') rgb = hue(i);
-    else {
-      const map = samples[name];
-      const position = (i / 255) * (map.length - 1);
-      const low = Math.min(Math.floor(position), map.length - 2);
-      rgb = map[low]!.map((v, c) => v + (position - low) * (map[low + 1]![c]! - v));
-    }
-    const [r, g, b] = rgb.map(Math.round) as [number, number, number];
+    const [r, g, b] = (name === 'hue' ? hue(i) : between(samples[name], i / 255)).map(Math.round) as [number, number, number];
     out[i] = (255 << 24) | (b << 16) | (g << 8) | r;
   }
   return out;

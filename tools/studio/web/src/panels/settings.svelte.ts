@@ -29,22 +29,18 @@ export class PlotColours {
   private chosen = $state.raw<MapName>();
   /** Until the user chooses another one. */
   private mode: ScaleMode | null;
-  private readonly signed: boolean;
-  private readonly activityOf: () => string | null;
   private readonly keep: PanelProps['keep'];
 
   /** `signed`: values below 0 get the diverging map, with 0 in its middle, unless the user chose others. `activityOf`: the group whose activity is shown, unless it is something else. */
-  constructor(props: () => Kept, { scale, signed = false, activityOf = () => null }: { scale?: Scale; signed?: boolean; activityOf?: () => string | null } = {}) {
+  constructor(props: () => Kept, private readonly options: { scale?: Scale; signed?: boolean; activityOf?: () => string | null } = {}) {
     const { panel, keep } = props();
-    this.signed = signed;
-    this.activityOf = activityOf;
-    this.scale = (panel.scale as Scale | undefined) ?? scale ?? this.scale;
+    this.scale = (panel.scale as Scale | undefined) ?? options.scale ?? this.scale;
     this.mode = panel.scale ? null : this.scale.mode;
     this.chosen = panel.map as MapName | undefined;
     this.keep = keep;
   }
   get map(): MapName {
-    return this.chosen ?? (this.signed && this.scale.low < 0 ? 'diverging' : 'viridis');
+    return this.chosen ?? (this.options.signed && this.scale.low < 0 ? 'diverging' : 'viridis');
   }
   set map(map: MapName) {
     this.chosen = map;
@@ -53,9 +49,9 @@ export class PlotColours {
   /** Lets the scale follow values, as its mode says. */
   follow(...values: ArrayLike<number>[]): void {
     const ends = values.map(extent), least = Math.min(...ends.map((e) => e[0])), largest = Math.max(...ends.map((e) => e[1]));
-    const group = this.activityOf(), shared = group && (this.mode || this.scale.mode === 'expand');
+    const group = this.options.activityOf?.(), shared = group && (this.mode || this.scale.mode === 'expand');
     const { mode, low, high } = shared ? activityScale(group, least, largest) : adapt({ ...this.scale, mode: this.mode ?? this.scale.mode }, least, largest);
-    const limit = this.signed && mode === 'auto' && low < 0 ? Math.max(-low, high) : null;
+    const limit = this.options.signed && mode === 'auto' && low < 0 ? Math.max(-low, high) : null;
     const next = limit === null ? { mode, low, high } : { mode, low: -limit, high: limit };
     if (next.mode !== this.scale.mode || next.low !== this.scale.low || next.high !== this.scale.high) this.scale = next;
   }
