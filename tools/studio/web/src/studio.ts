@@ -4,9 +4,8 @@ import { CommandError, Connection, type Arguments, type CommandName, type Result
 import { protocolVersion, type ServerMessage, type SystemMessage } from './protocol/messages';
 import type { Frame } from './protocol/frame';
 import { tellDownloads } from './draw/save';
-import { editing } from './edit/document.svelte';
+import { editing, worldFile } from './edit/document.svelte';
 import { endedText } from './edit/ended_text';
-import { worldFile } from './edit/world.svelte';
 import { actions } from './stores/actions.svelte';
 import { forgetScales } from './stores/activity_scales';
 import { dock } from './stores/dock.svelte';

@@ -2,8 +2,7 @@
 import { actions } from '../stores/actions.svelte';
 import { model } from '../stores/model.svelte';
 import { command } from '../studio';
-import { baseName, editing, sendAll } from '../edit/document.svelte';
-import { worldFile } from '../edit/world.svelte';
+import { baseName, editing, sendAll, worldFile } from '../edit/document.svelte';
 import { download as save } from '../draw/save';
 import { fragmentOf } from './link';
 import { addFile, readFile } from './socket';

@@ -1,5 +1,7 @@
-// How the page writes moments and spans of a run: seconds, with the cycles in brackets, as figures of the library do.
-import { counted } from './counted';
+// How the page writes numbers of things; and moments and spans of a run: seconds, with the cycles in brackets, as figures of the library do.
+
+/** "1 row", "2 rows" */
+export const counted = (n: number, word: string): string => `${n} ${n === 1 ? word : `${word}s`}`;
 
 /** Seconds with at most two decimals. */
 const seconds = (cycles: number, perCycle: number) => String(Math.round(cycles * perCycle * 100) / 100);

@@ -1,4 +1,4 @@
-// Saves what a panel shows: PNG and SVG of its canvas, CSV of its numbers.
+// Saves what a panel shows: PNG and SVG of its picture, CSV of its numbers.
 import { cssColour, type MapName } from './colours';
 
 let tell = (_name: string): unknown => undefined;
@@ -16,6 +16,21 @@ export function download(name: string, type: string, content: BlobPart): void {
 }
 
 export const savePng = (name: string, canvas: HTMLCanvasElement): void => canvas.toBlob((blob) => blob && download(`${name}.png`, 'image/png', blob));
+
+export const saveSvg = (name: string, svg: string): void => download(`${name}.svg`, 'image/svg+xml', svg);
+
+/** Saves it as PNG, with `scale` pixels for each of its units, and fewer if the browser has no canvas of that size. */
+export async function saveSvgAsPng(name: string, svg: string, scale = 2): Promise<void> {
+  const image = new Image();
+  image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(svg)}`;
+  await image.decode();
+  const part = Math.min(scale, 8000 / Math.max(image.width, image.height));
+  const canvas = document.createElement('canvas');
+  canvas.width = Math.ceil(image.width * part);
+  canvas.height = Math.ceil(image.height * part);
+  canvas.getContext('2d')!.drawImage(image, 0, 0, canvas.width, canvas.height);
+  savePng(name, canvas);
+}
 
 /** The colour of a cell by its number; 'none' where there is nothing. */
 type Colour = (i: number) => string;
@@ -42,7 +57,7 @@ function places(maps: HeatMap[], row: boolean) {
 
 /** Saves heat maps with their captions, as PNG or SVG. Their canvases have a pixel per cell. */
 export function saveHeats(name: string, format: string, maps: (HeatMap & { canvas: HTMLCanvasElement })[], row = true): void {
-  if (format === 'svg') return download(`${name}.svg`, 'image/svg+xml', heatsSvg(maps, row));
+  if (format === 'svg') return saveSvg(name, heatsSvg(maps, row));
   const { s, at, width, height } = places(maps, row);
   const out = document.createElement('canvas');
   out.width = width;

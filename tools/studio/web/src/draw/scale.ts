@@ -36,3 +36,13 @@ export function short(v: number): string {
   if (a !== 0 && (a < 0.001 || a >= 100000)) return v.toExponential(1).replace('.0e', 'e');
   return String(Number(v.toPrecision(4)));
 }
+
+/** The present run minus the reference; NaN where one of them is unknown. */
+export const difference = (now: ArrayLike<number>, reference: ArrayLike<number>): Float32Array => Float32Array.from(now, (v, i) => v - (reference[i] ?? NaN));
+
+/** A scale with zero in its middle. */
+export function differenceScale(values: ArrayLike<number>): Scale {
+  const [low, high] = extent(values);
+  const limit = Math.max(-low, high);
+  return { mode: 'auto', low: limit > 0 ? -limit : -1, high: limit > 0 ? limit : 1 };
+}

@@ -1,5 +1,5 @@
-// The document that is edited: whether it is saved, what is wrong with it, and which types there are. The server holds its content.
-import type { DocumentMessage, DocumentProblem, TypesResult } from '../protocol/messages';
+// The documents that are edited, the system and its world: whether they are saved, what is wrong with them, and which types there are. The server holds their content.
+import type { DocumentMessage, DocumentProblem, TypesResult, WorldDocument } from '../protocol/messages';
 
 class DocumentState {
   message = $state.raw<DocumentMessage | null>(null);
@@ -31,6 +31,16 @@ class DocumentState {
 }
 
 export const editing = new DocumentState();
+
+/** The world's file as it is edited. The run keeps its world until the file is saved; only a light that is dragged in the arena acts at once. */
+class WorldFile {
+  document = $state.raw<WorldDocument | null>(null);
+  /** Why there is none. */
+  missing = $state('');
+  dirty = $derived(this.document?.dirty ?? false);
+}
+
+export const worldFile = new WorldFile();
 
 /** What must reach the server before the document is saved, such as a text that is being written. It throws an Error that says why it cannot. */
 export const unsent = new Set<() => Promise<unknown>>();

@@ -6,10 +6,9 @@ import { model } from '../stores/model.svelte';
 import { run } from '../stores/run.svelte';
 import { command, request } from '../studio';
 import { CommandError } from '../connection';
-import { baseName, editing, sendAll } from './document.svelte';
+import { baseName, editing, sendAll, worldFile } from './document.svelte';
 import { leaving } from './leaving.svelte';
 import { attempt } from './operations';
-import { worldFile } from './world.svelte';
 
 type FileAction = 'open' | 'save as' | 'import' | 'link' | 'export' | 'part' | 'new' | 'world' | 'save the world';
 

@@ -6,9 +6,8 @@ import { run } from '../stores/run.svelte';
 import { command } from '../studio';
 import type { Commands } from '../protocol/commands';
 import { editing } from './document.svelte';
-import { addRobot, fixesOf } from './fixes';
+import { addRobot, fixesOf, formProblem } from './fixes';
 import { properties } from './menus';
-import { formProblem } from './problem_text';
 import { tools } from './tool.svelte';
 
 type Started = Commands['run']['result'];

@@ -7,13 +7,12 @@ import { model } from '../stores/model.svelte';
 import { run } from '../stores/run.svelte';
 import { selection } from '../stores/selection.svelte';
 import { openText } from '../xml/place.svelte';
-import { editing } from './document.svelte';
+import { editing, worldFile } from './document.svelte';
 import { examples } from './examples.svelte';
 import { backup, fileDialog, quit, save, saveWorld } from './file.svelte';
 import type { Entries } from './menu.svelte';
 import { partEntries, properties } from './menus';
 import { palette } from './palette.svelte';
-import { worldFile } from './world.svelte';
 
 export function systemMenu(): Entries {
   const process = model.processes.find((p) => p.id === selection.process);

@@ -1,5 +1,5 @@
 // What a button of the tutorial does: it opens a system of those that come with Forage, sets parameters, and arranges panels.
-import { arrange, closePlots } from '../presets';
+import { arrange, closePlots, openTutorial } from '../presets';
 import type { PanelState } from '../panels/registry';
 import { dock } from '../stores/dock.svelte';
 import { model } from '../stores/model.svelte';
@@ -98,4 +98,16 @@ export async function setUp(setup: Setup): Promise<boolean> {
   } finally {
     dock.arranging = false;
   }
+}
+
+/** Opens an exercise that the address of the page names: ?exercise=2-reactive-layer:1 is the first set-up of that part of the tutorial. */
+export async function openAskedExercise(): Promise<void> {
+  const asked = new URLSearchParams(location.search).get('exercise');
+  if (!asked) return;
+  const { pages } = await import('virtual:tutorial');
+  const [part, number] = asked.split(':');
+  const page = pages.find((p) => p.id === part), setup = page?.setups[Number(number) - 1];
+  if (!page) return;
+  openTutorial(page.id);
+  if (setup) await setUp(setup);
 }

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { difference, differenceScale } from '../../src/draw/difference';
+import { difference, differenceScale } from '../../src/draw/scale';
 import { Moments } from '../../src/panels/moments';
 import type { Block } from '../../src/protocol/frame';
 

@@ -9,7 +9,7 @@ const { selection } = await import('../../src/stores/selection.svelte');
 const { editing } = await import('../../src/edit/document.svelte');
 const { pageWith, reveal } = await import('../../src/edit/reveal');
 const { portMeanings } = await import('../../src/edit/port_meaning');
-const { formProblem } = await import('../../src/edit/problem_text');
+const { formProblem } = await import('../../src/edit/fixes');
 
 beforeEach(() => {
   const process = (id: string, groups: string[]) => ({ id, name: id.toUpperCase(), groups: groups.map((g) => ({ id: g, path: `${id}/${g}` })), comments: [], module: { type: 'moduleBug', inputs: [], outputs: [] } });

@@ -1,7 +1,7 @@
 import { describe, expect, it } from 'vitest';
 import type { Block, Frame } from '../../src/protocol/frame';
 import { momentOf } from '../../src/panels/moment_keys';
-import { Traces } from '../../src/panels/traces';
+import { Traces } from '../../src/panels/trace';
 import type { Listener } from '../../src/streams';
 
 const rows = (values: [number, number][], gap = false): Block => ({ stream: 1, rows: values.length, columns: 2, gap, minMax: false, low: 0, high: 1, values: Float64Array.from(values.flat()) });
