@@ -351,13 +351,8 @@ export function clickedAnchor(box: Box, p: Point): number | null {
 
 /** The nearest of the 16 points around a box. */
 export function nearestAnchor(box: Box, p: Point): number {
-  let nearest = 0, distance = Infinity;
-  for (let n = 0; n < 16; n++) {
-    const a = anchor(box, n);
-    const d = Math.hypot(a.x - p.x, a.y - p.y);
-    if (d < distance) [nearest, distance] = [n, d];
-  }
-  return nearest;
+  const distances = Array.from({ length: 16 }, (_, n) => anchor(box, n)).map((a) => Math.hypot(a.x - p.x, a.y - p.y));
+  return distances.indexOf(Math.min(...distances));
 }
 
 /** The point of the 16 around a box that faces another box, for connections that are made without the mouse. */
