@@ -1,4 +1,5 @@
 // What the streams of the world say now. The views from above and in space draw from it.
+import type { Block } from '../protocol/frame';
 import type { WorldMessage } from '../protocol/messages';
 import type { Streams } from '../streams';
 import { Trail } from './trail';
@@ -79,29 +80,26 @@ export class LiveWorld {
     });
   }
   watchRays(streams: Source, world: WorldMessage): () => void {
-    return this.each(world.robots.filter((r) => r.scans.length), this.scans, (name) => this.newest(streams, `${this.prefix}world:rays:${name}`, this.scans, name));
+    return this.each(streams, 'rays', 'latest', world.robots.filter((r) => r.scans.length), this.scans, (_, { values }) => values);
   }
   watchParts(streams: Source, world: WorldMessage): () => void {
-    return this.each(world.robots, this.parts, (name) => this.newest(streams, `${this.prefix}world:parts:${name}`, this.parts, name));
+    return this.each(streams, 'parts', 'latest', world.robots, this.parts, (_, { values }) => values);
   }
   watchTrails(streams: Source, world: WorldMessage): () => void {
-    return this.each(world.robots, this.trails, (name) =>
-      streams.subscribe(`${this.prefix}world:trail:${name}`, 'append', (block) => {
-        let trail = this.trails.get(name);
-        if (!trail) this.trails.set(name, trail = new Trail());
-        trail.add(block.rows, block.columns, block.values);
-        this.changed();
-      }));
-  }
-
-  private newest(streams: Source, source: string, to: Map<string, ArrayLike<number>>, name: string): () => void {
-    return streams.subscribe(source, 'latest', (block) => {
-      to.set(name, block.values);
-      this.changed();
+    return this.each(streams, 'trail', 'append', world.robots, this.trails, (trail = new Trail(), { rows, columns, values }) => {
+      trail.add(rows, columns, values);
+      return trail;
     });
   }
-  private each(robots: { name: string }[], kept: Map<string, unknown>, watch: (name: string) => () => void): () => void {
-    const ends = robots.map((r) => watch(r.name));
+
+  /** Keeps for each robot what `next` makes of a block and of what was kept before. */
+  private each<Kept>(streams: Source, source: string, delivery: 'latest' | 'append', robots: { name: string }[], kept: Map<string, Kept>, next: (before: Kept | undefined, block: Block) => Kept): () => void {
+    const ends = robots.map(({ name }) =>
+      streams.subscribe(`${this.prefix}world:${source}:${name}`, delivery, (block) => {
+        kept.set(name, next(kept.get(name), block));
+        this.changed();
+      })
+    );
     return () => {
       for (const end of ends) end();
       kept.clear();

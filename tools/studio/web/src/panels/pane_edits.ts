@@ -36,15 +36,12 @@ export class PaneEdits {
   /** When a tool was used last: the second click of a double click does nothing more. */
   private used = 0;
 
-  constructor(private readonly now: () => Pane) {}
-  private get pane(): Pane {
-    return this.now();
-  }
+  constructor(private readonly pane: () => Pane) {}
 
   /** Adds a process or a group, and lets its name be written. */
   async add(at?: Point): Promise<void> {
     const p = at ?? this.freePlace();
-    const { process } = this.pane;
+    const { process } = this.pane();
     const [x, y] = toFile({ x: p.x - boxSize / 2, y: p.y - boxSize / 2 });
     const made = process
       ? await edit({ do: 'add_group', process: process.id, name: freshName('Group', process.groups.map((g) => g.name)), x, y })
@@ -66,16 +63,16 @@ export class PaneEdits {
   comment(at?: Point): void {
     const p = at ?? this.freePlace();
     tools.current = 'select';
-    draftComment(this.pane.uid, this.pane.process?.id ?? null, toFile(at ? p : { x: p.x - (newSize.width * scale) / 2, y: p.y - (newSize.height * scale) / 2 }));
+    draftComment(this.pane().uid, this.pane().process?.id ?? null, toFile(at ? p : { x: p.x - (newSize.width * scale) / 2, y: p.y - (newSize.height * scale) / 2 }));
   }
 
   /** Writes where these boxes stand. Returns whether they may stand there. */
   async place(ids: string[], merge?: string): Promise<boolean> {
     const operations = ids.flatMap((id): Operation[] => {
-      const b = this.pane.boxes.get(id);
+      const b = this.pane().boxes.get(id);
       if (!b) return [];
       const [x, y] = toFile(b.box);
-      return b.phantom ? [{ do: 'phantom', process: this.pane.process?.id ?? '', group: id, x, y }] : [{ do: 'place', id, x, y }];
+      return b.phantom ? [{ do: 'phantom', process: this.pane().process?.id ?? '', group: id, x, y }] : [{ do: 'place', id, x, y }];
     });
     if (!operations.length) return true;
     return !!(await edit(operations, operations.length > 1 ? `Move ${operations.length} items` : undefined, merge));
@@ -84,7 +81,7 @@ export class PaneEdits {
   /** Makes comments wider and higher, by units of the file. */
   grow(dx: number, dy: number, ids: string[]): void {
     const comments = ids.flatMap((id): Operation[] => {
-      const b = this.pane.boxes.get(id)!;
+      const b = this.pane().boxes.get(id)!;
       return 'text' in b.item ? [{ do: 'comment', id, width: Math.max(10, b.item.icon.width + dx), height: Math.max(10, b.item.icon.height + dy) }] : [];
     });
     if (comments.length) void edit(comments, 'Resize a comment', 'sizes');
@@ -92,7 +89,7 @@ export class PaneEdits {
 
   /** Those without phantoms, whose groups belong to other pages. */
   removable(ids: string[]): string[] {
-    return ids.filter((id) => !this.pane.boxes.get(id)?.phantom);
+    return ids.filter((id) => !this.pane().boxes.get(id)?.phantom);
   }
 
   remove(ids: string[]): void {
@@ -102,14 +99,14 @@ export class PaneEdits {
 
   /** A place in the file for what is pasted, so that it does not lie on what is there. */
   besides(at: Point): [number, number] {
-    return apart(toFile(at), [...this.pane.boxes.values()].filter((b) => !b.comment).map((b) => toFile(b.box)));
+    return apart(toFile(at), [...this.pane().boxes.values()].filter((b) => !b.comment).map((b) => toFile(b.box)));
   }
 
   /** The free place for a box that is the nearest to the middle of what is seen. */
   freePlace(): Point {
-    const all = [...this.pane.boxes.values()];
-    const seen = this.pane.canvas!.getBoundingClientRect();
-    const middle = this.pane.stage!.toPage({ clientX: seen.left + seen.width / 2, clientY: seen.top + seen.height / 2 });
+    const all = [...this.pane().boxes.values()];
+    const seen = this.pane().canvas!.getBoundingClientRect();
+    const middle = this.pane().stage!.toPage({ clientX: seen.left + seen.width / 2, clientY: seen.top + seen.height / 2 });
     for (let ring = 0;; ring++)
       for (let row = -ring; row <= ring; row++)
         for (let column = -ring; column <= ring; column++) {
@@ -120,7 +117,7 @@ export class PaneEdits {
 
   /** A click with the tool that is in hand. */
   click(e: MouseEvent): void {
-    const { stage, process, boxes } = this.pane, target = e.target as Element;
+    const { stage, process, boxes } = this.pane(), target = e.target as Element;
     if (tools.current === 'select' || !stage || !target.closest('.svelte-flow') || target.closest('.svelte-flow__panel, .vertex')) return;
     e.stopPropagation();
     e.preventDefault();
@@ -146,7 +143,7 @@ export class PaneEdits {
     tools.used();
     const number = target !== box.id || box.phantom ? null : clickedAnchor(box.box, p);
     // Across processes, the vertices belong to the page on which they were clicked.
-    const from = page === (this.pane.process?.id ?? null) ? this.pane.boxes.get(begin) : undefined;
+    const from = page === (this.pane().process?.id ?? null) ? this.pane().boxes.get(begin) : undefined;
     const list = page === null ? 'vertices' : from?.phantom ? 'target_vertices' : !from || box.phantom ? 'source_vertices' : 'vertices';
     void connect({
       source,
@@ -161,7 +158,7 @@ export class PaneEdits {
 
   /** A double click on the canvas writes a comment. Beside a box, it was the box that was meant. */
   doubleClick(e: MouseEvent): void {
-    const { stage, boxes } = this.pane;
+    const { stage, boxes } = this.pane();
     if (tools.current !== 'select' || performance.now() - this.used < 600 || !stage || !(e.target as Element).classList.contains('svelte-flow__pane')) return;
     const p = stage.toPage(e);
     if (![...boxes.values()].some((b) => !b.comment && inside(b.box, p, 12))) this.comment(p);

@@ -3,19 +3,13 @@ import { editing } from '../edit/document.svelte';
 import { dock } from '../stores/dock.svelte';
 import { frame } from '../stores/frame.svelte';
 
-class TextPlace {
-  /** Counts from 1, the column in bytes; `key` differs each time. */
-  wanted = $state.raw<{ line: number; column: number; key: number } | null>(null);
-  private key = 0;
-  go(line: number, column: number): void {
-    this.wanted = { line, column, key: ++this.key };
-  }
-}
-export const textPlace = new TextPlace();
+/** The place that the text is to show: lines count from 1, columns in bytes; `key` differs each time. */
+export const textPlace = $state({ wanted: null as { line: number; column: number; key: number } | null });
+let key = 0;
 
 /** Opens the text of the system, at a place of it. */
 export function openText(at?: { line?: number; column?: number }): string | null {
-  if (at?.line) textPlace.go(at.line, at.column ?? 1);
+  if (at?.line) textPlace.wanted = { line: at.line, column: at.column ?? 1, key: ++key };
   return dock.openBeside({ kind: 'text' }, 'diagram');
 }
 

@@ -4,7 +4,7 @@ import { fromModule, pageSvg, toModule, wrapped } from '../../src/panels/page_sv
 import { moduleLinks } from '../../src/panels/module_links';
 import { connectable } from '../../src/edit/ends';
 import { aligned, apart, distributed, freshName } from '../../src/edit/places';
-import { CellPlan, choosesCells, holds, parseTuples, reform, spanned, tupleText } from '../../src/edit/forms/cells';
+import { cellPlan, choosesCells, holds, parseTuples, reform, spanned, tupleText } from '../../src/edit/forms/cells';
 import { anchor, middleOfLongest, nearestPart, roundedPath, type Point } from '../../src/panels/line';
 import type { Connection, ConnectionLine, Group, Process, SystemMessage } from '../../src/protocol/messages';
 
@@ -238,7 +238,7 @@ describe('geometry', () => {
 });
 
 describe('the cells of a group', () => {
-  const plan = (columns: number, rows: number) => new CellPlan(Array.from({ length: columns * rows }, (_, i) => [(i % columns) + 1, Math.floor(i / columns) + 1] as [number, number]), 256, 200);
+  const plan = (columns: number, rows: number) => cellPlan(Array.from({ length: columns * rows }, (_, i) => [(i % columns) + 1, Math.floor(i / columns) + 1] as [number, number]), 256, 200);
   it('of a long row stand below each other, large enough to be pointed at, with their numbers', () => {
     const rays = plan(32, 1);
     expect([rays.columns, rays.rows, rays.size, rays.numbered]).toEqual([16, 2, 16, false]);

@@ -9,56 +9,36 @@ export function cellsOf(group: Group): Place[] {
   return Array.from({ length: group.width * group.height }, (_, i) => [(i % group.width) + 1, Math.floor(i / group.width) + 1]);
 }
 
+/** The side of a cell of a row in pixels, from which on its number can be read. */
+const smallest = 16;
+
 /** How cells are drawn: the places of a long row stand in several rows below each other, so that they are large enough to be pointed at. */
-export class CellPlan {
-  readonly columns: number;
-  readonly rows: number;
-  readonly size: number;
+export function cellPlan(cells: Place[], width: number, height: number, largest = 22) {
+  const across = Math.max(1, ...cells.map((c) => c[0])), down = Math.max(1, ...cells.map((c) => c[1]));
+  const folds = down === 1 && across * smallest > width ? Math.ceil((across * smallest) / width) : 1;
   /** How many cells of a folded row stand side by side; 0 when it is not folded. */
-  private readonly fold: number;
-
-  constructor(readonly cells: Place[], width: number, height: number, largest = 22) {
-    const columns = Math.max(1, ...cells.map((c) => c[0])), rows = Math.max(1, ...cells.map((c) => c[1]));
-    const folds = rows === 1 && columns * CellPlan.smallest > width ? Math.ceil((columns * CellPlan.smallest) / width) : 1;
-    this.fold = folds > 1 ? Math.ceil(columns / folds) : 0;
-    this.columns = this.fold || columns;
-    this.rows = folds > 1 ? Math.ceil(columns / this.fold) : rows;
-    this.size = Math.max(3, Math.min(largest, Math.floor(width / this.columns), Math.floor(height / this.rows)));
-  }
-  /** The side of a cell of a row in pixels, from which on its number can be read. */
-  private static readonly smallest = 16;
-
-  /** The left upper corner of a cell. */
-  at([x, y]: Place): { x: number; y: number } {
-    const row = this.fold ? Math.floor((x - 1) / this.fold) : y - 1;
-    return { x: (x - 1 - (this.fold ? row * this.fold : 0)) * this.size, y: row * this.size };
-  }
-  /** What is written into a cell, if it has room: its column in a row, else nothing, as the edges have the numbers. */
-  label([x]: Place): string {
-    return this.flat && this.size >= 6 * String(x).length + 3 ? String(x) : '';
-  }
+  const fold = folds > 1 ? Math.ceil(across / folds) : 0;
+  const columns = fold || across, rows = fold ? Math.ceil(across / fold) : down;
+  const size = Math.max(3, Math.min(largest, Math.floor(width / columns), Math.floor(height / rows)));
   /** Whether it is one row, folded or not. */
-  get flat(): boolean {
-    return this.fold > 0 || this.rows === 1;
-  }
+  const flat = fold > 0 || rows === 1;
   /** Whether columns and rows have their numbers at the edges. */
-  get numbered(): boolean {
-    return !this.flat && this.size >= 12;
-  }
+  const numbered = !flat && size >= 12;
   /** The room for these numbers. */
-  get edge(): { x: number; y: number } {
-    return this.numbered ? { x: 18, y: 14 } : { x: 0, y: 0 };
-  }
-  /** The height in pixels, with the numbers. */
-  get height(): number {
-    return this.edge.y + this.rows * this.size;
-  }
+  const edge = numbered ? { x: 18, y: 14 } : { x: 0, y: 0 };
+  /** The left upper corner of a cell. */
+  const at = ([x, y]: Place) => {
+    const row = fold ? Math.floor((x - 1) / fold) : y - 1;
+    return { x: (x - 1 - row * fold) * size, y: row * size };
+  };
+  /** What is written into a cell, if it has room: its column in a row, else nothing, as the edges have the numbers. */
+  const label = ([x]: Place) => (flat && size >= 6 * String(x).length + 3 ? String(x) : '');
   /** The middle of a cell, from the left upper corner of all. */
-  middle(cell: Place): { x: number; y: number } {
-    const { x, y } = this.at(cell);
-    return { x: this.edge.x + x + this.size / 2, y: this.edge.y + y + this.size / 2 };
-  }
+  const middle = (cell: Place) => ({ x: edge.x + at(cell).x + size / 2, y: edge.y + at(cell).y + size / 2 });
+  // The height has that of the numbers in it.
+  return { cells, columns, rows, size, numbered, edge, height: edge.y + rows * size, at, label, middle };
 }
+export type CellPlan = ReturnType<typeof cellPlan>;
 
 /** Whether a region holds a place. */
 export function holds(region: Region, [x, y]: Place): boolean {
