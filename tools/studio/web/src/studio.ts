@@ -56,24 +56,16 @@ export async function request<C extends CommandName>(name: C, ...given: Argument
 }
 
 /** Sends a command. Shows the server's message and resolves with undefined when it is rejected. */
-export async function command<C extends CommandName>(name: C, ...given: Arguments<C>): Promise<Result<C> | undefined> {
-  try {
-    return await request(name, ...given);
-  } catch (error) {
-    actions.notify('error', (error as Error).message, { cause: name });
-    return undefined;
-  }
+export function command<C extends CommandName>(name: C, ...given: Arguments<C>): Promise<Result<C> | undefined> {
+  return request(name, ...given).catch((error: Error) => void actions.notify('error', error.message, { cause: name }));
 }
 
 /** Undoes or redoes one step. An empty history is no error. */
-async function moveInHistory(name: 'undo' | 'redo'): Promise<void> {
-  try {
-    await request(name);
-  } catch (error) {
+const moveInHistory = (name: 'undo' | 'redo') =>
+  request(name).catch((error: Error) => {
     const nothing = error instanceof CommandError && error.reason === 'nothing';
-    actions.notify(nothing ? 'info' : 'error', (error as Error).message, { cause: name });
-  }
-}
+    actions.notify(nothing ? 'info' : 'error', error.message, { cause: name });
+  });
 
 export const undo = () => moveInHistory('undo');
 export const redo = () => moveInHistory('redo');
@@ -137,15 +129,11 @@ function receive(message: ServerMessage): void {
 }
 
 /** Loads the file of the world. The top bar shows whether it has unsaved changes, so no panel needs to be open. */
-async function loadWorldFile(): Promise<void> {
-  try {
-    worldFile.document = await request('world_document');
-    worldFile.missing = '';
-  } catch (error) {
-    worldFile.document = null;
-    worldFile.missing = (error as Error).message;
-  }
-}
+const loadWorldFile = () =>
+  request('world_document').then(
+    (document) => Object.assign(worldFile, { document, missing: '' }),
+    (error: Error) => Object.assign(worldFile, { document: null, missing: error.message }),
+  );
 
 /** Whether the arrangement of the panels stays when one of two systems is opened after the other. */
 const alike = (before: SystemMessage, after: SystemMessage): boolean => before.file === after.file || before.processes.some((p) => after.processes.some((q) => q.id === p.id));

@@ -39,16 +39,9 @@ export function nameLines(name: string, width: number, maxLines: number, widthOf
   return lines.length <= maxLines && lines.every((l) => widthOf(l) <= width) ? lines : [withoutMiddle(name, width, widthOf)];
 }
 
-/** A name on an axis, from `start` on, in pixels. */
-interface AxisLabel {
-  text: string;
-  start: number;
-  at: number;
-}
-
-/** As many names as fit beside `length` pixels, at even distances, with the first and the last, and the one in the middle, if there is one. A run of the same name has one label. */
-export function axisLabels(names: string[], length: number, sizeOf: (text: string) => number, gap = 8): AxisLabel[] {
-  const step = length / names.length, labels: (AxisLabel & { end: number })[] = [];
+/** As many names as fit beside `length` pixels, each from `start` on, at even distances, with the first and the last, and the one in the middle, if there is one. A run of the same name has one label. */
+export function axisLabels(names: string[], length: number, sizeOf: (text: string) => number, gap = 8): { text: string; start: number; at: number }[] {
+  const step = length / names.length, labels: { text: string; start: number; at: number; end: number }[] = [];
   for (let i = 0; i < names.length;) {
     let end = i + 1;
     while (end < names.length && names[end] === names[i]) end++;

@@ -112,7 +112,7 @@ class FileDialog {
   shipped = $state.raw<string[]>([]);
   listing = $state.raw<FilesResult | null>(null);
   /** The listing that is on its way: a name is one of its folder, not of the one that was shown before. */
-  private listed: Promise<void> = Promise.resolve();
+  private listed: Promise<unknown> = Promise.resolve();
   recent = $state.raw<RecentFile[]>([]);
   name = $state('');
   /** The world of a system that is opened or begun; empty for none. */
@@ -147,22 +147,17 @@ class FileDialog {
     this.name = task.name ?? '';
     this.template = '';
     this.looking = action !== 'new';
-    void this.list('', task.beside);
+    this.list('', task.beside);
   }
   close(): void {
     this.task = this.action = null;
     this.settle();
   }
-  list(folder: string, beside = ''): Promise<void> {
-    return (this.listed = this.read(folder, beside));
-  }
-  private async read(folder: string, beside: string): Promise<void> {
-    try {
-      this.listing = await request('files', { folder, beside });
-      this.error = '';
-    } catch (e) {
-      this.error = (e as Error).message;
-    }
+  list(folder: string, beside = ''): void {
+    this.listed = request('files', { folder, beside }).then(
+      (listing) => Object.assign(this, { listing, error: '' }),
+      (e: Error) => (this.error = e.message),
+    );
   }
   /** Whether the dialog lists a file. */
   lists(file: string): boolean {
@@ -250,16 +245,8 @@ export async function quit(): Promise<void> {
   }
 }
 
-/** Sends the edits that the server does not have yet. Shows why and returns false when one cannot be sent. */
-async function sendPending(): Promise<boolean> {
-  try {
-    await sendAll();
-    return true;
-  } catch (e) {
-    actions.notify('error', (e as Error).message);
-    return false;
-  }
-}
+/** Sends the edits that the server does not have yet. Shows why, and resolves with undefined, when one cannot be sent. */
+const sendPending = () => sendAll().then(() => true, (e: Error) => void actions.notify('error', e.message));
 
 /** Returns when it is saved; a system without a file of its own asks for its name first. */
 export async function save(): Promise<void> {

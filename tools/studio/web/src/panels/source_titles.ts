@@ -3,25 +3,18 @@ import { cellName } from '../draw/cell_names';
 import { model, outputState } from '../stores/model.svelte';
 import { parseSource } from './sources';
 
-interface Named {
-  source: string;
-  group: string;
-  name: string;
-  /** What tells it from others of the same name. */
-  place: string;
-}
-
-function named(source: string): Named {
+/** The name of a source, its group, and the place that tells it from others of the same name; empty for none. */
+function named(source: string): Record<'group' | 'name' | 'place', string> {
   const parsed = parseSource(source, model.groups.map((g) => g.path)), group = parsed && model.group(parsed.item);
-  const bare = { source, group: '', name: source, place: '' };
+  const bare = { group: '', name: source, place: '' };
   if (!parsed || !group || (parsed.state && parsed.state !== outputState(group))) return bare;
   const one = /^(\d+)(?:,(\d+))?$/.exec(parsed.cells);
   if (one) {
     const [x, y] = [Number(one[1]), Number(one[2] ?? 1)], name = group.places ? '' : cellName(group.names, x, y);
-    return name ? { source, group: group.name, name, place: `(${x}, ${y})` } : bare;
+    return name ? { group: group.name, name, place: `(${x}, ${y})` } : bare;
   }
   // The mean of one cell is its value.
-  return parsed.mean && group.cells === 1 && !parsed.cells ? { source, group: group.name, name: group.name, place: '' } : bare;
+  return parsed.mean && group.cells === 1 && !parsed.cells ? { group: group.name, name: group.name, place: '' } : bare;
 }
 
 /** The titles of sources that stand together: names of different groups have the group before them. */

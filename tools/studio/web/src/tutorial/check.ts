@@ -10,11 +10,7 @@ import { areInForce } from './choices';
 const holds = async (condition: string) => (await request('holds', { condition })).holds;
 
 /** What the field of a question holds: a number, or the text and the number of a choice. */
-interface Answer {
-  text: string;
-  number: number;
-}
-function answerIn(field: HTMLElement): Answer | undefined {
+function answerIn(field: HTMLElement): { text: string; number: number } | undefined {
   const input = field.querySelector<HTMLInputElement>('input[role=spinbutton], input:checked');
   const number = input && readNumber(input.value);
   if (!input || typeof number !== 'number') return undefined;
