@@ -17,12 +17,10 @@ const scope = new URL('./', self.location.href).href, kept = `${scope}#${version
 /** All files or none: each has its digest, so a server that is being updated leaves no mixture. */
 async function keep(): Promise<void> {
   const cache = await caches.open(kept);
-  try {
-    await cache.addAll(Object.entries(files).map(([path, integrity]) => new Request(scope + path, { cache: 'no-cache', integrity })));
-  } catch (error) {
+  await cache.addAll(Object.entries(files).map(([path, integrity]) => new Request(scope + path, { cache: 'no-cache', integrity }))).catch(async (error) => {
     await caches.delete(kept);
     throw error;
-  }
+  });
 }
 
 async function forgetOthers(): Promise<void> {

@@ -114,11 +114,9 @@ export class View {
 
 /** The places of the rectangle between two places. */
 export function rectangle(a: number, b: number, columns: number): number[] {
-  const [x0, x1] = [a % columns, b % columns].sort((p, q) => p - q) as [number, number];
-  const [y0, y1] = [Math.floor(a / columns), Math.floor(b / columns)].sort((p, q) => p - q) as [number, number];
-  const out: number[] = [];
-  for (let y = y0; y <= y1; y++) for (let x = x0; x <= x1; x++) out.push(y * columns + x);
-  return out;
+  const range = (p: number, q: number) => Array.from({ length: Math.abs(p - q) + 1 }, (_, i) => Math.min(p, q) + i);
+  const across = range(a % columns, b % columns);
+  return range(Math.floor(a / columns), Math.floor(b / columns)).flatMap((y) => across.map((x) => y * columns + x));
 }
 
 /** The edge of a set of places as the path of an SVG, a unit per cell. */

@@ -235,14 +235,12 @@ export async function quit(): Promise<void> {
   const changed = unsaved();
   if (!(await leaving.ask({ title: 'Quit', text: changed ? `${unsavedText()} changes that are not saved.` : 'The run ends with the program.', verb: changed ? 'Quit without saving' : 'Quit', ...(changed ? { save: saveAll } : {}) }))) return;
   run.ended = run.link === 'open'; // before the server goes
-  try {
-    await request('quit');
-  } catch (e) {
+  await request('quit').catch((e: Error) => {
     // The server may be gone before it has answered.
     if (run.ended && run.link !== 'open') return;
     run.ended = false;
-    actions.notify('error', (e as Error).message);
-  }
+    actions.notify('error', e.message);
+  });
 }
 
 /** Sends the edits that the server does not have yet. Shows why, and resolves with undefined, when one cannot be sent. */
@@ -286,12 +284,8 @@ export const saveActiveAs = () => fileDialog.open(inWorld() ? 'save the world' :
 export const outside = $state({ conflict: '' });
 
 /** What to do when another program wrote the file. A merge that cannot be made says why, and asks again. */
-export async function reload(keep: 'mine' | 'theirs' | 'merge'): Promise<void> {
-  try {
-    await request('reload', { keep });
-    outside.conflict = '';
-  } catch (e) {
+export const reload = (keep: 'mine' | 'theirs' | 'merge') =>
+  request('reload', { keep }).then(() => (outside.conflict = ''), (e: Error) => {
     if (keep === 'merge' && e instanceof CommandError && e.problems.length) outside.conflict = e.problems.map((p) => p.message).join('\n');
-    else actions.notify('error', (e as Error).message);
-  }
-}
+    else actions.notify('error', e.message);
+  });

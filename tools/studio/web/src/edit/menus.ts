@@ -1,5 +1,6 @@
 // The menus of items, the same in the diagram and in the tree.
 import type { PageLine } from '../panels/diagram';
+import type { PanelState } from '../panels/registry';
 import type { Process } from '../protocol/messages';
 import { undo } from '../studio';
 import { actions } from '../stores/actions.svelte';
@@ -47,6 +48,10 @@ export const partEntries = (p: Process): Entries =>
     ? [{ label: 'Dissolve', name: `Dissolve ${p.name}`, act: () => dissolve(p.id) }]
     : [{ label: 'Make a part of this…', name: `Make a part of ${p.name}`, disabled: p.groups.length === 0, act: () => fileDialog.open('part', p.id) }];
 
+/** The entry that opens some panels; none without any. */
+const plot = (label: string, panels: PanelState[]): Entries => (panels.length ? [{ label, act: () => panels.forEach((p) => dock.plot(p)) }] : []);
+const overTime = (groups: string[]): PanelState[] => (groups.length ? [{ kind: 'time', sources: groups.map((g) => `mean(${g})`) }] : []);
+
 /** What can be done with one item, or with all selected ones if it is among them. */
 function itemMenu(id: string): Entries {
   const ids = selection.has(id) ? selection.ids : [id];
@@ -63,33 +68,26 @@ function itemMenu(id: string): Entries {
   ];
   if (ids.length > 1) {
     const groups = ids.flatMap((i) => model.group(i)?.path ?? []);
-    const connections = ids.flatMap((i) => {
-      const found = model.find(i);
-      return found?.kind === 'connection' ? [found.connection] : [];
-    });
-    const plots: Entries = [];
-    if (groups.length) {
-      plots.push({ label: 'Space plots', act: () => groups.forEach((g) => dock.plot({ kind: 'space', item: g })) });
-      plots.push({ label: 'Time plot', act: () => dock.plot({ kind: 'time', sources: groups.map((g) => `mean(${g})`) }) });
-    }
-    if (connections.length) plots.push({ label: 'Wiring plots', act: () => connections.forEach((c) => dock.plot({ kind: 'wiring', item: model.nameFor(c) })) });
-    const weighed = connections.filter((c) => weightStates(c).length);
-    if (weighed.length) plots.push({ label: 'Weights', act: () => weighed.forEach((c) => dock.plot({ kind: 'weights', item: model.nameFor(c), state: weightStates(c)[0]!.name })) });
+    const connections = ids.flatMap((i) => model.connections.find((c) => c.id === i) ?? []);
+    const plots = [
+      ...plot('Space plots', groups.map((item) => ({ kind: 'space', item }))),
+      ...plot('Time plot', overTime(groups)),
+      ...plot('Wiring plots', connections.map((c) => ({ kind: 'wiring', item: model.nameFor(c) }))),
+      ...plot('Weights', connections.flatMap((c) => weightStates(c).slice(0, 1).map((s) => ({ kind: 'weights', item: model.nameFor(c), state: s.name })))),
+    ];
     return plots.length ? [...plots, ...editEntries] : editEntries.slice(1);
   }
   if (item.kind === 'comment') return [{ label: 'Write', keys: 'Enter', act: () => rename(id) }, { label: 'Properties', act: () => properties(id) }, ...editEntries];
   const first: Entries = [{ label: 'Properties', keys: 'Enter', act: () => properties(id) }, { label: 'Rename', keys: 'F2', act: () => rename(id) }];
   if (item.kind === 'group') {
-    const path = item.group.path;
-    first.push({ label: 'Connect…', act: () => (tools.dialog = { source: id, kind: 'excitatory' }) }, null, { label: 'Space plot', act: () => dock.plot({ kind: 'space', item: path }) }, {
-      label: 'Time plot',
-      act: () => dock.plot({ kind: 'time', sources: [`mean(${path})`] }),
-    }, { label: 'Drive by hand', act: () => dock.plot({ kind: 'manipulate', item: path }) });
+    const { path } = item.group;
+    first.push({ label: 'Connect…', act: () => (tools.dialog = { source: id, kind: 'excitatory' }) }, null);
+    first.push(...plot('Space plot', [{ kind: 'space', item: path }]), ...plot('Time plot', overTime([path])), ...plot('Drive by hand', [{ kind: 'manipulate', item: path }]));
   } else if (item.kind === 'process') {
     first.push({ label: 'Show its groups', act: () => (selection.process = id) }, ...partEntries(item.process), { label: 'Export…', act: () => fileDialog.open('export', id) });
   } else {
-    first.push(null, { label: 'Wiring', act: () => dock.plot({ kind: 'wiring', item: model.nameFor(item.connection) }) });
-    for (const s of weightStates(item.connection)) first.push({ label: s.label, act: () => dock.plot({ kind: 'weights', item: model.nameFor(item.connection), state: s.name }) });
+    const name = model.nameFor(item.connection);
+    first.push(null, ...plot('Wiring', [{ kind: 'wiring', item: name }]), ...weightStates(item.connection).flatMap((s) => plot(s.label, [{ kind: 'weights', item: name, state: s.name }])));
   }
   return [...first, ...editEntries];
 }

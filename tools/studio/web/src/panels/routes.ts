@@ -101,44 +101,33 @@ class Heap {
   }
 }
 
-/** The lines of a grid beside the boxes and through the ends, and which of its parts are free, or taken by lines. */
-class Grid {
-  private xs: number[];
-  private ys: number[];
+/** The lines of a grid beside the boxes and through the ends, of which parts are free, or taken by lines. Returns what finds ways along them. */
+function gridOf(boxes: Box[], exits: Point[]) {
+  const sorted = (values: number[]) => [...new Set(values)].sort((a, b) => a - b);
+  const xs = sorted([...boxes.flatMap((b) => [b.x - turn, b.x + b.width + turn]), ...exits.map((p) => p.x)]);
+  const ys = sorted([...boxes.flatMap((b) => [b.y - turn, b.y + b.height + turn]), ...exits.map((p) => p.y)]);
+  const count = xs.length * ys.length;
+  const bytes = (value: 0 | 1): [Uint8Array, Uint8Array] => [new Uint8Array(count).fill(value), new Uint8Array(count).fill(value)];
   /** For the part from a place to the next one to the right (0) and downwards (1). */
-  private free: [Uint8Array, Uint8Array];
-  private lines: [Uint8Array, Uint8Array];
+  const free = bytes(1), lines = bytes(0);
   /** Whether a line passes a place along an axis. */
-  private passed: [Uint8Array, Uint8Array];
-
-  constructor(boxes: Box[], exits: Point[]) {
-    const sorted = (values: number[]) => [...new Set(values)].sort((a, b) => a - b);
-    this.xs = sorted([...boxes.flatMap((b) => [b.x - turn, b.x + b.width + turn]), ...exits.map((p) => p.x)]);
-    this.ys = sorted([...boxes.flatMap((b) => [b.y - turn, b.y + b.height + turn]), ...exits.map((p) => p.y)]);
-    const { xs, ys } = this, count = xs.length * ys.length;
-    const bytes = (): [Uint8Array, Uint8Array] => [new Uint8Array(count), new Uint8Array(count)];
-    this.free = bytes();
-    this.lines = bytes();
-    this.passed = bytes();
-    this.free[0].fill(1);
-    this.free[1].fill(1);
-    for (const b of boxes) {
-      const [left, top, right, bottom] = [b.x - clearance, b.y - clearance, b.x + b.width + clearance, b.y + b.height + clearance];
-      for (let y = 0; y < ys.length; y++)
-        for (let x = 0; x < xs.length; x++) {
-          const at = y * xs.length + x, [px, py] = [xs[x]!, ys[y]!];
-          if (py > top && py < bottom && px < right && (xs[x + 1] ?? Infinity) > left) this.free[0][at] = 0;
-          if (px > left && px < right && py < bottom && (ys[y + 1] ?? Infinity) > top) this.free[1][at] = 0;
-        }
-    }
+  const passed = bytes(0);
+  for (const b of boxes) {
+    const [left, top, right, bottom] = [b.x - clearance, b.y - clearance, b.x + b.width + clearance, b.y + b.height + clearance];
+    for (let y = 0; y < ys.length; y++)
+      for (let x = 0; x < xs.length; x++) {
+        const at = y * xs.length + x, [px, py] = [xs[x]!, ys[y]!];
+        if (py > top && py < bottom && px < right && (xs[x + 1] ?? Infinity) > left) free[0][at] = 0;
+        if (px > left && px < right && py < bottom && (ys[y + 1] ?? Infinity) > top) free[1][at] = 0;
+      }
   }
-  private at = (p: Point) => this.ys.indexOf(p.y) * this.xs.length + this.xs.indexOf(p.x);
-  private point = (at: number): Point => ({ x: this.xs[at % this.xs.length]!, y: this.ys[Math.floor(at / this.xs.length)]! });
+  const placeOf = (p: Point) => ys.indexOf(p.y) * xs.length + xs.indexOf(p.x);
+  const point = (at: number): Point => ({ x: xs[at % xs.length]!, y: ys[Math.floor(at / xs.length)]! });
 
   /** The cheapest way from a place to another one, which leaves and arrives along these axes (0: x); null when there is none. */
-  way(from: Point, to: Point, leaves: number, arrives: number): Point[] | null {
-    const { xs, ys } = this, start = this.at(from) * 2 + leaves, goal = this.at(to);
-    const cost = new Float64Array(xs.length * ys.length * 2).fill(Infinity), before = new Int32Array(cost.length).fill(-1);
+  function way(from: Point, to: Point, leaves: number, arrives: number): Point[] | null {
+    const start = placeOf(from) * 2 + leaves, goal = placeOf(to);
+    const cost = new Float64Array(count * 2).fill(Infinity), before = new Int32Array(cost.length).fill(-1);
     const rest = (p: Point) => Math.abs(p.x - to.x) + Math.abs(p.y - to.y);
     const open = new Heap();
     cost[start] = 0;
@@ -148,13 +137,13 @@ class Grid {
       if (at === goal && was === arrives) {
         const states = [state];
         while (before[states[0]!]! >= 0) states.unshift(before[states[0]!]!);
-        return this.take(states.map((s) => s >> 1));
+        return take(states.map((s) => s >> 1));
       }
       const step = (to: number, axis: 0 | 1, part: number) => {
-        if (!this.free[axis][part]) return;
-        const [p, q] = [this.point(at), this.point(to)], length = Math.abs(p.x - q.x) + Math.abs(p.y - q.y);
-        const next = to * 2 + axis, crossing = to !== goal && this.passed[1 - axis]![to] ? crossingCost : 0;
-        const sum = cost[state]! + length * (this.lines[axis][part] ? 1 + sharedCost : 1) + (axis === was ? 0 : bendCost) + crossing;
+        if (!free[axis][part]) return;
+        const [p, q] = [point(at), point(to)], length = Math.abs(p.x - q.x) + Math.abs(p.y - q.y);
+        const next = to * 2 + axis, crossing = to !== goal && passed[1 - axis]![to] ? crossingCost : 0;
+        const sum = cost[state]! + length * (lines[axis][part] ? 1 + sharedCost : 1) + (axis === was ? 0 : bendCost) + crossing;
         if (sum >= cost[next]!) return;
         cost[next] = sum;
         before[next] = state;
@@ -175,15 +164,16 @@ class Grid {
     return null;
   }
   /** Marks the parts of a way as taken. */
-  private take(places: number[]): Point[] {
+  function take(places: number[]): Point[] {
     for (let i = 0; i + 1 < places.length; i++) {
       const [a, b] = [places[i]!, places[i + 1]!], axis = Math.abs(a - b) === 1 ? 0 : 1;
       if (a === b) continue;
-      this.lines[axis][Math.min(a, b)] = 1;
-      this.passed[axis][a] = this.passed[axis][b] = 1;
+      lines[axis][Math.min(a, b)] = 1;
+      passed[axis][a] = passed[axis][b] = 1;
     }
-    return places.map(this.point);
+    return places.map(point);
   }
+  return way;
 }
 
 /** Without points between others on a straight line. */
@@ -257,14 +247,14 @@ function separate(routes: Point[][], across: Axis): void {
 export function route(boxes: Box[], lines: Ends[]): (Point[] | null)[] {
   const ends = spread(lines.map(slid));
   const exit = ({ at, side }: End): Point => ({ x: at.x + turn * outward[side].x, y: at.y + turn * outward[side].y });
-  const grid = new Grid(boxes, ends.flat().map(exit));
+  const way = gridOf(boxes, ends.flat().map(exit));
   const axis = (e: End) => (e.side % 2 ? 0 : 1);
   // Short lines first: longer ones go around them.
   const length = ([a, b]: Ends) => Math.abs(a.at.x - b.at.x) + Math.abs(a.at.y - b.at.y);
   const routes: (Point[] | null)[] = ends.map(() => null);
   for (const i of ends.map((_, i) => i).sort((a, b) => length(ends[a]!) - length(ends[b]!))) {
-    const [a, b] = ends[i]!, way = grid.way(exit(a), exit(b), axis(a), axis(b));
-    if (way) routes[i] = corners([a.at, ...way, b.at]);
+    const [a, b] = ends[i]!, found = way(exit(a), exit(b), axis(a), axis(b));
+    if (found) routes[i] = corners([a.at, ...found, b.at]);
   }
   const found = routes.filter((r) => r !== null);
   separate(found, 'x');

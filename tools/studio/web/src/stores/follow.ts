@@ -13,12 +13,7 @@ export interface NameChanges {
   lost: Map<string, string>;
 }
 
-function named(system: SystemMessage): Map<string, string> {
-  const all = new Map<string, string>();
-  for (const p of system.processes) for (const g of p.groups) all.set(g.id, g.path);
-  for (const c of system.connections) all.set(c.id, c.name);
-  return all;
-}
+const named = ({ processes, connections }: SystemMessage): Map<string, string> => new Map([...processes.flatMap((p) => p.groups.map((g) => [g.id, g.path] as const)), ...connections.map((c) => [c.id, c.name] as const)]);
 
 /** The ids of groups and connections by their names. */
 export const idsByName = (system: SystemMessage): Map<string, string> => new Map([...named(system)].map(([id, name]) => [name, id]));

@@ -168,12 +168,10 @@ const groupSuggestion = (g: KnownGroup): Suggestion => ({ text: g.id, detail: g.
 
 /** The groups that the text has, and those that the server knows besides. */
 function groups(text: string, known: Knowledge): KnownGroup[] {
-  const here: KnownGroup[] = [];
-  for (const t of all(scan(text).tags))
-    if (t.name === 'Group' && valueOf(t, 'id')) {
-      const process = around(t, 'Process');
-      here.push({ id: valueOf(t, 'id'), path: [valueOf(process, 'name'), valueOf(t, 'name')].filter(Boolean).join('/'), neuron: valueOf(t.children.find((c) => c.name === 'Neuron'), 'name'), process: valueOf(process, 'id') });
-    }
+  const here = [...all(scan(text).tags)].filter((t) => t.name === 'Group' && valueOf(t, 'id')).map((t): KnownGroup => {
+    const process = around(t, 'Process');
+    return { id: valueOf(t, 'id'), path: [valueOf(process, 'name'), valueOf(t, 'name')].filter(Boolean).join('/'), neuron: valueOf(t.children.find((c) => c.name === 'Neuron'), 'name'), process: valueOf(process, 'id') };
+  });
   const ids = new Set(here.map((g) => g.id));
   return [...here, ...known.groups.filter((g) => !ids.has(g.id))];
 }
