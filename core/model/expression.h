@@ -3,6 +3,7 @@
 // system; callers resolve the names.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -33,7 +34,14 @@ struct ScheduledChange {
 
 /// Patterns that change the activity of a group while the system runs.
 struct ManipulationSpec {
-    enum class Mode { clamp, add, multiply };
+    enum class Mode {
+        clamp,     ///< the activity becomes the pattern
+        add,       ///< the pattern is added to it
+        multiply,  ///< it is multiplied by the pattern, cell by cell
+    };
+    static constexpr std::array<const char*, 3> modes = {"clamp", "add", "multiply"};
+    static const char* name_of(Mode mode) { return modes[static_cast<std::size_t>(mode)]; }
+
     Mode mode = Mode::clamp;
     Expression group;     ///< "Process/Group"; empty for a table
     Expression cells;     ///< one pattern, "(x,y)=value ..."; alternative to `patterns` and `table`

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/base/member_count.h"
+#include "core/model/expression.h"
 #include "core/observe/condition.h"
 #include "core/observe/observer.h"
 
@@ -15,11 +16,7 @@ namespace forage::observe {
 /// pattern in every `every`-th cycle and none in between, or each pattern from a cycle of its own on.
 class Manipulation final : public Observer {
   public:
-    enum class Mode {
-        clamp,     ///< the activity becomes the pattern
-        add,       ///< the pattern is added to it
-        multiply,  ///< it is multiplied by the pattern, cell by cell
-    };
+    using Mode = model::ManipulationSpec::Mode;
     struct Settings {
         int group = 0;
         Mode mode = Mode::clamp;

@@ -24,10 +24,9 @@ class ManipulationReader {
         : layout_(layout), trials_(trials), length_(length), diagnostics_(diagnostics) {}
 
     void add(const Spec& spec) {
-        static constexpr const char* names[] = {"clamp", "add", "multiply"};
-        mode_ = names[static_cast<int>(spec.mode)];
+        mode_ = Spec::name_of(spec.mode);
         Settings settings;
-        settings.mode = static_cast<Manipulation::Mode>(spec.mode);
+        settings.mode = spec.mode;
         settings.every = spec.every, settings.step = spec.step, settings.times = spec.times;
         settings.backwards = spec.backwards;
         settings.from = condition(spec.from), settings.until = condition(spec.until);
@@ -94,11 +93,9 @@ class ManipulationReader {
 
     /// "--clamp 'P/A=1'", or "clamp of 'P/A'" in a file
     std::string described(const Spec& spec) const {
-        static constexpr const char* names[] = {"clamp", "add", "multiply"};
-        const std::string mode = names[static_cast<int>(spec.mode)];
+        const auto* mode = Spec::name_of(spec.mode);
         if (!spec.text.empty()) return fmt::format("--{} '{}'", mode, spec.text);
-        const bool is_table = !spec.table.empty();
-        return fmt::format("{} of '{}'", mode, is_table ? spec.table.text : spec.group.text);
+        return fmt::format("{} of '{}'", mode, spec.table.empty() ? spec.group.text : spec.table.text);
     }
 
     bool act_together(const Made& a, const Made& b) const {

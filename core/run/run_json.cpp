@@ -58,8 +58,7 @@ Json settings_json(const RunSpec& o, const Run& run, const std::vector<std::stri
     if (!o.input.replay.empty()) json["replay"] = input_file(o.input.replay);
     for (const auto& change : o.changes) json["schedule"].push_back(change.text());
     if (!o.length.until.empty()) json["until"] = o.length.until.text;
-    for (const auto& m : o.manipulations)
-        json[std::array{"clamp", "add", "multiply"}[static_cast<std::size_t>(m.mode)]].push_back(m.text);
+    for (const auto& m : o.manipulations) json[m.name_of(m.mode)].push_back(m.text);
     json["lenient"] = o.input.lenient;
     return json;
 }

@@ -147,11 +147,11 @@ class ExperimentReader {
 
     /// Reads <clamp>, <add> or <multiply>.
     void manipulation(const Element& e) {
-        static constexpr std::array modes = {"clamp", "add", "multiply"};
-        const auto mode = std::ranges::find(modes, e.name()) - modes.begin();
-        if (mode == std::ssize(modes) || one_of(e, alternatives(e)).empty()) return;
+        using Spec = model::ManipulationSpec;
+        const auto mode = std::ranges::find(Spec::modes, e.name()) - Spec::modes.begin();
+        if (mode == std::ssize(Spec::modes) || one_of(e, alternatives(e)).empty()) return;
         auto& m = experiment_.manipulations.emplace_back();
-        m.mode = static_cast<model::ManipulationSpec::Mode>(mode);
+        m.mode = static_cast<Spec::Mode>(mode);
         read_attributes(e, m);
     }
 
