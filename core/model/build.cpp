@@ -108,10 +108,6 @@ void refuse_linked(const Process& p) {
                       "change it in its file, or import it, which makes it a part of this system");
 }
 
-[[noreturn]] void no_item(std::string_view what, std::string_view id) {
-    throw std::invalid_argument(fmt::format("there is no {} with the id '{}'", what, id));
-}
-
 }  // namespace
 
 std::string fresh_id(const System& system, const std::string& preferred) {
@@ -131,16 +127,15 @@ std::string add_process(System& system, std::string name, std::string id) {
 
 std::string add_group(System& system, std::string_view process, std::string name, int width, int height,
                       std::string neuron_type, std::string id) {
-    Process* p = find_process(system, process);
-    if (!p) no_item("process", process);
-    refuse_linked(*p);
+    Process& p = process_with(system, process);
+    refuse_linked(p);
     Group g;
     g.id = claim(system, std::move(id), "group");
     g.name = std::move(name);
     g.topology = RectTopology{width, height};
     g.neuron.type = std::move(neuron_type);
-    p->groups.push_back(std::move(g));
-    return p->groups.back().id;
+    p.groups.push_back(std::move(g));
+    return p.groups.back().id;
 }
 
 std::string add_connection(System& system, std::string_view source, std::string_view target, InputKind kind,
@@ -158,8 +153,7 @@ std::string add_connection(System& system, std::string_view source, std::string_
 }
 
 std::string add_canvas_comment(System& system, std::string_view process, CanvasComment comment) {
-    Process* p = process.empty() ? nullptr : find_process(system, process);
-    if (!p && !process.empty()) no_item("process", process);
+    Process* p = process.empty() ? nullptr : &process_with(system, process);
     if (p) refuse_linked(*p);
     comment.id = claim(system, std::move(comment.id), "comment");
     auto& page = p ? p->canvas_comments : system.canvas_comments;
@@ -169,6 +163,15 @@ std::string add_canvas_comment(System& system, std::string_view process, CanvasC
 
 Process* find_process(System& system, std::string_view id) {
     return find_by(system.processes, id, &Process::id);
+}
+
+void no_item(std::string_view what, std::string_view id) {
+    throw std::invalid_argument(fmt::format("there is no {} with the id '{}'", what, id));
+}
+
+Process& process_with(System& system, std::string_view id) {
+    if (Process* p = find_process(system, id)) return *p;
+    no_item("process", id);
 }
 
 Group* find_group(System& system, std::string_view id) {

@@ -37,6 +37,10 @@ Process* find_process(System& system, std::string_view id);
 Group* find_group(System& system, std::string_view id);
 Connection* find_connection(System& system, std::string_view id);
 CanvasComment* find_canvas_comment(System& system, std::string_view id);
+/// Throws std::invalid_argument: there is no `what` with this id.
+[[noreturn]] void no_item(std::string_view what, std::string_view id);
+/// The process with this id, which must be there.
+Process& process_with(System& system, std::string_view id);
 
 /// Sets a parameter to a value, which is written as in a file.
 void set_parameter(TypeUse& use, std::string name, std::string value);

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <span>
-#include <stdexcept>
-#include <type_traits>
 
 #include <fmt/format.h>
 
@@ -166,15 +164,8 @@ std::optional<Assignment> resolve(const System& system, const Registry& registry
 /// The use of a type that has the parameter.
 template <class S>  // System or const System
 auto& use_of(S& system, const Assignment& a) {
-    using Use = std::conditional_t<std::is_const_v<S>, const TypeUse, TypeUse>;
-    if (a.owner == Assignment::Owner::process)
-        return static_cast<Use&>(*find_by(system.processes, a.id, &Process::id)->module);
-    if (a.owner == Assignment::Owner::connection)
-        return static_cast<Use&>(*find_by(system.connections, a.id, &Connection::id)->synapse);
-    for (auto& p : system.processes)
-        for (auto& g : p.groups)
-            if (g.id == a.id) return static_cast<Use&>(g.neuron);
-    throw std::invalid_argument(fmt::format("there is no group with the id '{}'", a.id));
+    if (auto* use = find_use(system, a.id)) return *use;
+    no_item("group", a.id);
 }
 
 }  // namespace
@@ -212,18 +203,14 @@ std::string assignment_text(const System& system, const Assignment& a) {
 
 std::vector<std::string> parameter_names(const System& system, const Registry& registry) {
     std::vector<std::string> out;
-    const auto add = [&](Assignment::Owner owner, const std::string& id, const TypeUse& use) {
-        const auto* parameters = parameters_of(registry, owner, use.type);
+    each_item(system, [&](Assignment::Owner owner, const auto& item, const TypeUse* use) {
+        if constexpr (requires { item.module_enabled; })
+            if (!item.module_enabled) return;
+        const auto* parameters = use ? parameters_of(registry, owner, use->type) : nullptr;
         if (!parameters || parameters->empty()) return;
-        const auto where = assignment_name(system, owner, id);
+        const auto where = assignment_name(system, owner, item.id);
         for (const auto& p : *parameters) out.push_back(fmt::format("{}.{}", where, p.name));
-    };
-    for (const auto& p : system.processes) {
-        if (p.module && p.module_enabled) add(Assignment::Owner::process, p.id, *p.module);
-        for (const auto& g : p.groups) add(Assignment::Owner::group, g.id, g.neuron);
-    }
-    for (const auto& c : system.connections)
-        if (c.synapse) add(Assignment::Owner::connection, c.id, *c.synapse);
+    });
     for (auto& name : constant_names(system)) out.push_back(std::move(name));
     return out;
 }

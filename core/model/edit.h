@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "core/model/system.h"
@@ -23,6 +24,27 @@ struct Assignment {
     std::string text;      ///< "WHERE.parameter=value", as written
     Location at;           ///< the location of the text; without a file: the command line
 };
+
+/// Calls f(owner, item, use) with each process, group and connection, and its use of a type: null without
+/// one.
+template <class S, class F>  // System or const System
+void each_item(S& system, F f) {
+    for (auto& p : system.processes) {
+        f(Assignment::Owner::process, p, p.module ? &*p.module : nullptr);
+        for (auto& g : p.groups) f(Assignment::Owner::group, g, &g.neuron);
+    }
+    for (auto& c : system.connections) f(Assignment::Owner::connection, c, c.synapse ? &*c.synapse : nullptr);
+}
+
+/// The use of a type in the group, process or connection with this id; null when there is none.
+template <class S>  // System or const System
+auto* find_use(S& system, std::string_view id) {
+    std::conditional_t<std::is_const_v<S>, const TypeUse, TypeUse>* out = nullptr;
+    each_item(system, [&](auto, auto& item, auto* use) {
+        if (item.id == id) out = use;
+    });
+    return out;
+}
 
 /// The parameters of a neuron, module or synapse type, by the kind of the items that use it; null when the
 /// type is unknown.

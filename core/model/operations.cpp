@@ -17,9 +17,6 @@ namespace forage::model {
 namespace {
 
 [[noreturn]] void refuse(const std::string& message) { throw std::invalid_argument(message); }
-[[noreturn]] void missing(std::string_view what, std::string_view id) {
-    refuse(fmt::format("there is no {} with the id '{}'", what, id));
-}
 
 void refuse_edit(const Process& p) {
     if (p.linked())
@@ -28,7 +25,7 @@ void refuse_edit(const Process& p) {
 }
 
 void require_group(System& system, std::string_view id) {
-    if (!find_group(system, id)) missing("group", id);
+    if (!find_group(system, id)) no_item("group", id);
 }
 
 void move(std::optional<Icon>& icon, int x, int y) {
@@ -49,7 +46,7 @@ TypeUse& use_of(System& system, std::string_view id) {
         if (!p.module) refuse(fmt::format("process '{}' has no module", trim(p.name)));
         return *p.module;
     }
-    missing("group, connection or process", id);
+    no_item("group, connection or process", id);
 }
 
 /// Removes the settings and the initial values that a type does not have.
@@ -86,35 +83,23 @@ void set_references(std::vector<CrossReference>& references,
 }  // namespace
 
 Process& editable_process(System& system, std::string_view id) {
-    Process* p = find_process(system, id);
-    if (!p) missing("process", id);
-    refuse_edit(*p);
-    return *p;
+    Process& p = process_with(system, id);
+    refuse_edit(p);
+    return p;
 }
 
 Group& editable_group(System& system, std::string_view id) {
     for (auto& p : system.processes)
         for (auto& g : p.groups)
             if (g.id == id) return refuse_edit(p), g;
-    missing("group", id);
+    no_item("group", id);
 }
 
 Connection& editable_connection(System& system, std::string_view id) {
     Connection* c = find_connection(system, id);
-    if (!c) missing("connection", id);
+    if (!c) no_item("connection", id);
     if (c->linked) refuse(fmt::format("connection '{}' is in the file of a linked process", trim(c->name)));
     return *c;
-}
-
-const TypeUse* find_use(const System& system, std::string_view id) {
-    for (const auto& p : system.processes) {
-        if (p.id == id) return p.module ? &*p.module : nullptr;
-        for (const auto& g : p.groups)
-            if (g.id == id) return &g.neuron;
-    }
-    for (const auto& c : system.connections)
-        if (c.id == id) return c.synapse ? &*c.synapse : nullptr;
-    return nullptr;
 }
 
 std::string name_of(const System& system, std::string_view id) {
@@ -137,15 +122,14 @@ void place(System& system, std::string_view id, int x, int y) {
     } else if (find_canvas_comment(system, id)) {
         set_comment(system, id, {.x = x, .y = y});
     } else {
-        missing("process, group or comment", id);
+        no_item("process, group or comment", id);
     }
 }
 
 void place_phantom(System& system, std::string_view process, std::string_view group, int x, int y) {
-    Process* p = find_process(system, process);
-    if (!p) missing("process", process);
+    Process& p = process_with(system, process);
     require_group(system, group);
-    if (std::ranges::any_of(p->groups, [&](const Group& g) { return g.id == group; }))
+    if (std::ranges::any_of(p.groups, [&](const Group& g) { return g.id == group; }))
         refuse(fmt::format("the group '{}' is in this process", group));
     const auto in = [&](std::vector<Phantom>& all) {
         const auto it = std::ranges::find(all, group, &Phantom::group);
@@ -154,8 +138,8 @@ void place_phantom(System& system, std::string_view process, std::string_view gr
         else
             it->x = x, it->y = y;
     };
-    in(p->phantoms);
-    if (p->linked()) in(p->placeholder.front().phantoms);  // like its icon
+    in(p.phantoms);
+    if (p.linked()) in(p.placeholder.front().phantoms);  // like its icon
 }
 
 void set_line(System& system, std::string_view id, LineChange change) {
@@ -193,7 +177,7 @@ void set_comment(System& system, std::string_view id, CommentChange change) {
     for (auto& p : system.processes)
         if (std::ranges::any_of(p.canvas_comments, [&](const auto& c) { return c.id == id; })) refuse_edit(p);
     CanvasComment* c = find_canvas_comment(system, id);
-    if (!c) missing("comment", id);
+    if (!c) no_item("comment", id);
     for (const auto& side : {change.width, change.height})
         if (side && *side < 1) refuse("a comment is at least 1 wide and high");
     const auto no_text = [](unsigned char b) { return b < ' ' && b != '\t' && b != '\n' && b != '\r'; };
@@ -322,7 +306,7 @@ System copy(const System& system, std::span<const std::string> ids, Between conn
         }
     }
     for (const auto& id : wanted)
-        if (!found.contains(id)) missing("process, group, connection or comment", id);
+        if (!found.contains(id)) no_item("process, group, connection or comment", id);
     if (!loose.groups.empty() || !loose.canvas_comments.empty()) out.processes.push_back(std::move(loose));
     if (!one_scope) write_out_formulas(out);
     return out;
@@ -338,11 +322,7 @@ std::vector<std::string> paste(System& system, System content, std::string_view 
     if (!groups) std::erase_if(content.processes, is_loose);
     const bool whole = content.processes.size() > (groups ? 1u : 0u);
     if (!whole) std::ranges::move(std::exchange(content.canvas_comments, {}), std::back_inserter(comments));
-    if (groups || (!comments.empty() && !process.empty())) {
-        Process* target = find_process(system, process);
-        if (!target) missing("process", process);
-        refuse_edit(*target);
-    }
+    if (groups || (!comments.empty() && !process.empty())) refuse_edit(process_with(system, process));
     // Formulas stay where they mean the same.
     bool same_scope = has_all(system.constants, content.constants);
     for (const auto& p : content.processes)

@@ -21,9 +21,6 @@ Process& editable_process(System& system, std::string_view id);
 Group& editable_group(System& system, std::string_view id);
 Connection& editable_connection(System& system, std::string_view id);
 
-/// The use of a type in the group, process or connection with this id; null when there is none.
-const TypeUse* find_use(const System& system, std::string_view id);
-
 /// The path of the group, or the name of the process or connection with this id; empty when there is none.
 std::string name_of(const System& system, std::string_view id);
 

@@ -46,11 +46,6 @@ void replace_id(const Names& names, std::string& id) {
     if (const auto it = names.find(id); it != names.end()) id = it->second;
 }
 
-Process& process_with(System& system, std::string_view id) {
-    if (Process* p = find_process(system, id)) return *p;
-    throw std::invalid_argument(fmt::format("there is no process with the id '{}'", id));
-}
-
 /// Throws Refused for a process that cannot be a part.
 void refuse_as_part(const System& system, const Process& p) {
     const std::string name(trim(p.name));

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "core/model/edit.h"
+
 namespace forage {
 
 /// The longest datagram that can be a command, bytes.
@@ -21,7 +23,7 @@ constexpr std::size_t longest_remote_command = 4096;
 /// same.
 struct RemoteCommand {
     enum class Kind { start, stop, quit, start_sampler, stop_sampler, set_parameter, plot };
-    enum class Item { group, connection, process };
+    using Item = model::Assignment::Owner;
 
     Kind kind = Kind::start;
     Item item = Item::group;

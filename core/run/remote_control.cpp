@@ -33,16 +33,9 @@ std::vector<Meant> items_of(const RemoteCommand& command, const Run& run) {
     const auto meant = [&](const auto& item) {
         return command.by_id ? item.id == command.name : model::trim(item.name) == model::trim(command.name);
     };
-    for (const auto& p : run.system().processes) {
-        if (command.item == RemoteCommand::Item::process && meant(p))
-            out.push_back({Owner::process, &p.id, p.module ? &*p.module : nullptr});
-        for (const auto& g : p.groups)
-            if (command.item == RemoteCommand::Item::group && meant(g))
-                out.push_back({Owner::group, &g.id, &g.neuron});
-    }
-    for (const auto& c : run.system().connections)
-        if (command.item == RemoteCommand::Item::connection && meant(c))
-            out.push_back({Owner::connection, &c.id, c.synapse ? &*c.synapse : nullptr});
+    model::each_item(run.system(), [&](Owner owner, const auto& item, const model::TypeUse* use) {
+        if (owner == command.item && meant(item)) out.push_back({owner, &item.id, use});
+    });
     return out;
 }
 

@@ -285,22 +285,16 @@ bool check_system_files(const model::System& system, const Registry& registry, D
             diagnostics.error(at, found.message, found.hint);
         }
     };
-    const auto check_use = [&](model::Assignment::Owner owner, const model::TypeUse& use) {
-        const auto* parameters = model::parameters_of(registry, owner, use.type);
+    model::each_item(system, [&](auto owner, const auto&, const model::TypeUse* use) {
+        const auto* parameters = use ? model::parameters_of(registry, owner, use->type) : nullptr;
         if (!parameters) return;
-        for (const auto& s : use.settings)
+        for (const auto& s : use->settings)
             if (const auto* p = find_by(*parameters, s.name, &Parameter::name))
                 report(s.value_at, [&] {
-                    check_parameter_file(use.type, *p,
+                    check_parameter_file(use->type, *p,
                                          p->is_path ? model::resolved(s.value, s.value_at) : s.value);
                 });
-    };
-    for (const auto& p : system.processes) {
-        if (p.module) check_use(model::Assignment::Owner::process, *p.module);
-        for (const auto& g : p.groups) check_use(model::Assignment::Owner::group, g.neuron);
-    }
-    for (const auto& c : system.connections)
-        if (c.synapse) check_use(model::Assignment::Owner::connection, *c.synapse);
+    });
     model::each_array(system.processes, system.connections, [&](const auto& item) {
         if (!item.file.empty())
             report(item.file_at,
