@@ -30,36 +30,37 @@ std::string in_brackets(std::string_view sentence) {
     return sentence.empty() ? "" : fmt::format(" ({})", sentence);
 }
 
-struct UnknownType {
-    std::string message, hint;
-};
-
-/// What to say about a type that is not known. `kind` is "neuron", "synapse" or "module".
-UnknownType unknown_type(std::string_view kind, const std::string& name,
-                         const std::vector<std::string>& known, const Registry& registry) {
+/// What to say about a use of a type that is not known. `kind` is "neuron", "synapse" or "module".
+Diagnostic unknown_type(std::string_view kind, const TypeUse& use, const std::vector<std::string>& known,
+                        const Registry& registry) {
+    const std::string& name = use.type;
+    const auto error = [&](std::string message, std::string hint) {
+        return Diagnostic{Severity::error, use.at, std::move(message), std::move(hint), {}, {}};
+    };
     if (const auto* original = find_missing_original_type(name))
-        return {fmt::format("Forage does not have the original's {}: {}", name, original->reason),
-                std::string(original->hint)};
+        return error(fmt::format("Forage does not have the original's {}: {}", name, original->reason),
+                     std::string(original->hint));
     const char* other = registry.neuron(name)    ? "neuron"
                         : registry.synapse(name) ? "synapse"
                         : registry.module(name)  ? "module"
                                                  : nullptr;
     if (other)
-        return {fmt::format("there is no {} type '{}'", kind, name),
-                fmt::format("'{}' is a {} type", name, other)};
+        return error(fmt::format("there is no {} type '{}'", kind, name),
+                     fmt::format("'{}' is a {} type", name, other));
     std::string hint = suggest(name, known);
     if (!registry.unloaded.empty()) {
         const auto& [folder, how] = registry.unloaded.front();
-        return {fmt::format(
-                    "there is no {} type '{}' in Forage; it may be that of a plugin in '{}', which is not "
-                    "loaded",
-                    kind, name, folder),
-                hint.starts_with("did you mean") ? hint + " " + how : how};
+        return error(
+            fmt::format(
+                "there is no {} type '{}' in Forage; it may be that of a plugin in '{}', which is not "
+                "loaded",
+                kind, name, folder),
+            hint.starts_with("did you mean") ? hint + " " + how : how);
     }
     if (!hint.starts_with("did you mean"))
         hint +=
             "; if it comes from a plugin: --plugin PATH, or its .so in a folder 'plugins' beside the system";
-    return {fmt::format("there is no {} type '{}'", kind, name), hint};
+    return error(fmt::format("there is no {} type '{}'", kind, name), hint);
 }
 
 class Validator {
@@ -269,9 +270,7 @@ class Validator {
             arrays_.initial(group.neuron, names_of(type->states), names_of(type->parameters), scope_,
                             cells_of(&group), 1);
         } else {
-            const auto unknown =
-                unknown_type("neuron", group.neuron.type, names(registry_.neurons()), registry_);
-            out_.error(group.neuron.at, unknown.message, unknown.hint);
+            out_.add(unknown_type("neuron", group.neuron, names(registry_.neurons()), registry_));
         }
         check_topology(group);
     }
@@ -307,13 +306,10 @@ class Validator {
         const ModuleUse& use = *process.module;
         const ModuleType* type = registry_.module(use.type);
         if (!type) {
-            const auto [message, hint] =
-                unknown_type("module", use.type, names(registry_.modules()), registry_);
-            if (process.module_enabled)
-                out_.error(use.at, message, hint);
-            else
-                out_.warning(use.at, message + "; the module is disabled", hint);
-            return;
+            auto unknown = unknown_type("module", use, names(registry_.modules()), registry_);
+            if (!process.module_enabled)
+                unknown.severity = Severity::warning, unknown.message += "; the module is disabled";
+            return out_.add(std::move(unknown));
         }
         check_settings(use, type->parameters);
         ModulePorts ports;
@@ -478,8 +474,7 @@ class Validator {
             arrays_.initial(use, states, names_of(type->parameters), scope_, cells_of(target),
                             cells_of(source));
         } else {
-            const auto unknown = unknown_type("synapse", use.type, names(registry_.synapses()), registry_);
-            out_.error(use.at, unknown.message, unknown.hint);
+            out_.add(unknown_type("synapse", use, names(registry_.synapses()), registry_));
         }
         if (weighted)
             arrays_.weights(c, type, static_cast<int>(cells_of(source)), static_cast<int>(cells_of(target)));
