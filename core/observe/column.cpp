@@ -1,11 +1,13 @@
 #include "core/observe/column.h"
 
+#include <algorithm>
 #include <array>
 #include <tuple>
 
 #include <fmt/format.h>
 
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 #include "core/model/find_one.h"
 #include "core/model/lookup.h"
 
@@ -44,12 +46,10 @@ std::optional<ColumnRef> find_synapses(const engine::Layout& s, const expression
                       fmt::format("{} has a fixed weight, the same in all synapses", connection.type.name));
         return std::nullopt;
     }
-    std::vector<std::string> known;
-    for (int i = 0; i < std::ssize(connection.type.states); ++i) {
-        known.push_back(connection.type.states[i].name);
-        if (known.back() == state)
-            return ColumnRef{0, i, {}, fmt::format("{}:{}", model::trim(connection.name), state), *found};
-    }
+    const auto known = names_of(connection.type.states);
+    if (const int i = static_cast<int>(std::ranges::find(known, state) - known.begin());
+        i < std::ssize(known))
+        return ColumnRef{0, i, {}, fmt::format("{}:{}", model::trim(connection.name), state), *found};
     context.error(
         piece.at,
         state.empty() ? fmt::format("'{}' names a connection, not a group", name)
@@ -87,10 +87,8 @@ std::optional<ColumnRef> find_column(const engine::Layout& s, const expression::
                 return std::nullopt;
             }
         }
-        std::vector<std::string> names;
-        if (found.empty())
-            for (const auto& g : s.groups) names.push_back(g.path);
-        for (const int g : found) names.push_back(s.groups[g].path);
+        auto names = collected(found, [&](int g) { return s.groups[g].path; });
+        if (found.empty()) names = collected(s.groups, &engine::Layout::Group::path);
         context.error(piece.at,
                       found.empty() ? fmt::format("there is no group '{}'", path)
                                     : fmt::format("'{}' names {} groups", path, found.size()),
@@ -102,20 +100,13 @@ std::optional<ColumnRef> find_column(const engine::Layout& s, const expression::
     const NeuronType& type = s.groups[group].type;
     const std::string prefix = s.groups[group].path + ":";
     if (state.empty()) return ColumnRef{group, type.output(), {}, prefix + type.states[type.output()].name};
-    std::vector<std::string> known;
-    for (std::size_t i = 0; i < type.states.size(); ++i) {
-        known.push_back(type.states[i].name);
-        if (known.back() == state) return ColumnRef{group, static_cast<int>(i), {}, prefix + known.back()};
-    }
-    for (std::size_t k = 0; k < inputs.size(); ++k) {
-        known.emplace_back(inputs[k]);
-        if (inputs[k] == state) return ColumnRef{group, -1, static_cast<InputKind>(k), prefix + known.back()};
-    }
-    for (std::size_t k = 0; k < type.inputs.size(); ++k) {
-        known.push_back(type.inputs[k]);
-        if (known.back() == state)
-            return ColumnRef{group, -1, static_cast<InputKind>(input_kinds + k), prefix + known.back()};
-    }
+    auto known = names_of(type.states);
+    for (const auto name : inputs) known.emplace_back(name);
+    known.insert(known.end(), type.inputs.begin(), type.inputs.end());
+    const auto at = std::ranges::find(known, state) - known.begin(), states = std::ssize(type.states);
+    if (at < states) return ColumnRef{group, static_cast<int>(at), {}, prefix + known[at]};
+    if (at < std::ssize(known))
+        return ColumnRef{group, -1, static_cast<InputKind>(at - states), prefix + known[at]};
     context.error(piece.at + static_cast<std::size_t>(state.data() - text.data()),
                   fmt::format("{} has no state '{}'", type.name, state), suggest(state, known));
     return std::nullopt;

@@ -19,6 +19,13 @@ void add_groups(hid_t file, const std::string& place) {
     }
 }
 
+void add_attribute(hid_t object, const std::string& name, hid_t type, const void* value) {
+    const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a space");
+    const Hdf5Handle a(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
+                       "add attribute " + name);
+    check_hdf5(H5Awrite(a, type, value), "write attribute " + name);
+}
+
 }  // namespace
 
 void check_hdf5(herr_t status, const std::string& what) {
@@ -34,18 +41,11 @@ Hdf5Handle hdf5_text(std::size_t bytes) {
 }
 
 void add_attribute(hid_t object, const std::string& name, const std::string& text) {
-    const Hdf5Handle type = hdf5_text(text.size());
-    const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a space");
-    const Hdf5Handle a(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose,
-                       "add attribute " + name);
-    check_hdf5(H5Awrite(a, type, text.empty() ? "\0" : text.data()), "write attribute " + name);
+    add_attribute(object, name, hdf5_text(text.size()), text.empty() ? "\0" : text.data());
 }
 
 void add_attribute(hid_t object, const std::string& name, std::int64_t value) {
-    const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose, "make a space");
-    const Hdf5Handle a(H5Acreate2(object, name.c_str(), H5T_STD_I64LE, space, H5P_DEFAULT, H5P_DEFAULT),
-                       H5Aclose, "add attribute " + name);
-    check_hdf5(H5Awrite(a, H5T_NATIVE_INT64, &value), "write attribute " + name);
+    add_attribute(object, name, H5T_STD_I64LE, &value);  // as it lies in memory
 }
 
 Hdf5Handle create_hdf5(const std::string& path) {
