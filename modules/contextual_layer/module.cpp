@@ -40,21 +40,17 @@ void ContextualLayerModule::describe(ModuleSpec<ContextualLayerModule>& s) {
         .range(0, 2)
         .doc("A segment is selected only if its collector is above this value.");
     s.param("%-WTA", &T::share)
-        .label("%-WTA")
         .range(0, 1)
         .doc(
             "A segment is selected only if its collector is at least this fraction (0 to 1) of the largest "
             "one.");
     s.param("Trigger Reset", &T::reset)
-        .label("Trigger Reset")
         .range(0, 2)
         .doc("Trigger of the segment that follows a selected one; values above 1 favour it.");
     s.param("Trigger Decay", &T::decay)
-        .label("Trigger Decay")
         .range(0, 2)
         .doc("Fraction of the difference to 1 by which a trigger decays in a cycle.");
     s.param("Discrepancy Threshold", &T::discrepancy)
-        .label("Discrepancy Threshold")
         .range(0, 2)
         .doc("The layer opens, permanently, when the discrepancy is between 1e-6 and this value.");
     s.input("action", "Action").doc("The action of this cycle, which the memory stores.");

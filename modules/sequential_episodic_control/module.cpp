@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "core/base/separated.h"
+#include "core/base/sequence.h"
 
 namespace forage::sec {
 namespace {
@@ -45,9 +46,8 @@ T option(const Options<T, n>& all, const std::string& name) {
 template <class T, std::size_t n>
 void check_option(const Options<T, n>& all, const char* parameter, const std::string& name,
                   Diagnostics& diagnostics) {
-    std::vector<std::string> names;
-    for (const auto& entry : all) names.emplace_back(entry.first);
-    if (std::ranges::find(names, name) == names.end())
+    const auto names = collected(all, [](const auto& entry) { return std::string(entry.first); });
+    if (!contains(names, name))
         diagnostics.error(at_parameter(parameter), fmt::format("'{}' cannot be '{}'", parameter, name),
                           fmt::format("use one of: {}", separated(names, ", ")));
 }
@@ -177,19 +177,17 @@ void SequentialControlModule::check(const ModulePorts&, Diagnostics& diagnostics
 }
 
 Settings SequentialControlModule::settings() const {
-    Settings s;
-    s.sequential_bias = bias;
-    s.trigger_decay = decay;
-    s.trigger_increment = increment;
-    s.absolute_threshold = absolute;
-    s.relative_threshold = relative;
-    s.distance_constant = constant;
-    s.forgotten_share = share;
-    s.value = option(values, value);
-    s.forgetting = option(rules, forgetting);
-    s.softmax = option(policies, policy);
-    s.greedy = option(choices, choice);
-    return s;
+    return {.sequential_bias = bias,
+            .trigger_decay = decay,
+            .trigger_increment = increment,
+            .absolute_threshold = absolute,
+            .relative_threshold = relative,
+            .distance_constant = constant,
+            .forgotten_share = share,
+            .value = option(values, value),
+            .forgetting = option(rules, forgetting),
+            .softmax = option(policies, policy),
+            .greedy = option(choices, choice)};
 }
 
 void SequentialControlModule::start(const ModulePorts& ports) {
@@ -259,23 +257,19 @@ void SequentialControlModule::show(ModuleFrame& frame) const {
     if (frame.is_read(q)) frame.output(q) = decision_.values;
     if (frame.is_read(policy_out)) frame.output(policy_out) = decision_.policy;
     if (frame.is_read(entropy)) frame.output(entropy)[0] = decision_.entropy;
-    const auto picture = [&](Out port, auto&& row_of) {
+    const auto picture = [&](Out port, Index columns, auto&& row_of) {
         if (!frame.is_read(port)) return;
         auto cells = frame.output(port);
         cells.setZero();
-        const Index columns = memory_.segments();
         for (std::size_t i = 0; i < all.size(); ++i)
             cells.segment(static_cast<Index>(i) * columns, columns) = row_of(all[i]);
     };
-    picture(used, [](const Sequence& s) { return Eigen::ArrayXd::Ones(s.triggers.size()); });
-    picture(eligibility, [](const Sequence& s) -> const Eigen::ArrayXd& { return s.collectors; });
-    picture(trigger, [](const Sequence& s) -> const Eigen::ArrayXd& { return s.triggers; });
-    picture(selected, [](const Sequence& s) { return s.selected.cast<double>(); });
-    if (frame.is_read(rewards)) {
-        auto cells = frame.output(rewards);
-        cells.setZero();
-        for (std::size_t i = 0; i < all.size(); ++i) cells[static_cast<Index>(i)] = all[i].reward;
-    }
+    const Index n = memory_.segments();
+    picture(used, n, [](const Sequence& s) { return Eigen::ArrayXd::Ones(s.triggers.size()); });
+    picture(eligibility, n, [](const Sequence& s) -> const Eigen::ArrayXd& { return s.collectors; });
+    picture(trigger, n, [](const Sequence& s) -> const Eigen::ArrayXd& { return s.triggers; });
+    picture(selected, n, [](const Sequence& s) { return s.selected.cast<double>(); });
+    picture(rewards, 1, [](const Sequence& s) { return Eigen::ArrayXd::Constant(1, s.reward); });
 }
 
 }  // namespace forage::sec

@@ -42,19 +42,12 @@ void VideoModule::describe(ModuleSpec<VideoModule>& s) {
         .unit("1/s")
         .at_start()
         .doc("Rate of the camera, and of a film or folder in real time.");
-    s.param("HSV", &T::hsv).label("HSV").doc("The outputs are hue, saturation and value, each 0 to 1.");
+    s.param("HSV", &T::hsv).doc("The outputs are hue, saturation and value, each 0 to 1.");
     s.param("Monochrome", &T::monochrome)
-        .label("Monochrome")
         .doc("All outputs are the luminance, 0 to 1; then HSV has no effect.");
-    s.param("Brightness", &T::brightness)
-        .label("Brightness")
-        .range(0, 100)
-        .doc("50 leaves pictures unchanged.");
-    s.param("Contrast", &T::contrast).label("Contrast").range(0, 100).doc("50 leaves pictures unchanged.");
-    s.param("Saturation", &T::saturation)
-        .label("Saturation")
-        .range(0, 100)
-        .doc("50 leaves pictures unchanged.");
+    s.param("Brightness", &T::brightness).range(0, 100).doc("50 leaves pictures unchanged.");
+    s.param("Contrast", &T::contrast).range(0, 100).doc("50 leaves pictures unchanged.");
+    s.param("Saturation", &T::saturation).range(0, 100).doc("50 leaves pictures unchanged.");
     s.param("Real Time", &T::real_time)
         .label("Real time")
         .at_start()
@@ -63,19 +56,15 @@ void VideoModule::describe(ModuleSpec<VideoModule>& s) {
         .label("Cycles per picture")
         .range(1, 10000)
         .doc("How long a picture is shown, unless it is real time.");
-    s.param("Step", &T::step)
-        .label("Step")
-        .range(1, 10000)
-        .doc("Every n-th picture of a film or folder is shown.");
+    s.param("Step", &T::step).range(1, 10000).doc("Every n-th picture of a film or folder is shown.");
     s.param("Loop", &T::loop)
-        .label("Loop")
         .doc("A film or folder repeats after its end; otherwise the outputs are 0 then.");
     for (const auto& [name, member] :
          {std::pair{"Input", &T::input}, {"Standard", &T::standard}, {"AutoGain", &T::auto_gain}})
-        s.param(name, member).label(name).doc("A setting of the original's driver, without effect.");
+        s.param(name, member).doc("A setting of the original's driver, without effect.");
     for (const auto& [name, member] :
          {std::pair{"InfoWindow", &T::info_window}, {"ShowOutput", &T::show_output}})
-        s.param(name, member).label(name).doc("A window of the original, without effect.");
+        s.param(name, member).doc("A window of the original, without effect.");
     s.output("videoOutputRed", "Red, hue or grey")
         .full_rectangle()
         .doc("Red, hue or luminance of the picture.");

@@ -35,14 +35,13 @@ void RecorderModule::describe(ModuleSpec<RecorderModule>& s) {
         .range(1, 10000)
         .doc("Every n-th cycle becomes a picture.");
     s.param("Scale", &T::scale)
-        .label("Scale")
         .range(1, 64)
         .unit("pixels")
         .at_start()
         .doc("Width and height of a cell in the film.");
-    s.param("Minimum", &T::minimum).label("Minimum").doc("The activity that is black.");
-    s.param("Maximum", &T::maximum).label("Maximum").doc("The activity that is white.");
-    s.param("HSV", &T::hsv).label("HSV").doc("The inputs are hue, saturation and value.");
+    s.param("Minimum", &T::minimum).doc("The activity that is black.");
+    s.param("Maximum", &T::maximum).doc("The activity that is white.");
+    s.param("HSV", &T::hsv).doc("The inputs are hue, saturation and value.");
     s.input(names[0], "Red, hue or grey")
         .full_rectangle()
         .doc("Red or hue; without the others, the luminance.");
