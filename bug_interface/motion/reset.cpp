@@ -79,7 +79,7 @@ std::optional<ResetPlan> find_reset(const WorldDescription& world, Diagnostics& 
             starts.front()->where,
             fmt::format("there is a start pose '{}', but no model named GroundPlane that gives the bounds",
                         starts.front()->name),
-            "name the floor GroundPlane, or remove the Reset_i models");
+            "add a floor named GroundPlane, or remove the Reset_i models");
         return {};
     }
     const auto bounds = bounds_of(*ground, diagnostics);

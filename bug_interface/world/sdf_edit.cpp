@@ -22,6 +22,8 @@ namespace {
 
 using xml::SourceElement;
 
+constexpr const char* ground = "GroundPlane";  ///< the model whose bounds end trials
+
 /// A text as its tree and entries; it must not change meanwhile.
 struct Opened {
     Opened(const std::string& text, ModelTexts& models)
@@ -66,9 +68,24 @@ std::string free_name(const Opened& here, const std::string& kind) {
             if (!here.has(name)) return name;
         throw std::invalid_argument("there are already two homes");
     }
-    if (kind == "floor") return "GroundPlane";
+    if (kind == "floor") return ground;
     const std::string stem = capitalized(kind);
     return here.has(stem) ? first_free(stem + "_", 2, 100'000) : stem;
+}
+
+/// The floor whose bounds hold all items, with room for a robot around them.
+NewItem ground_around(const std::vector<WorldItem>& items) {
+    constexpr double room = 0.5, step = 0.1, usual = 2.5;
+    double x = usual, y = usual;
+    for (const auto& i : items) {
+        if (!i.placed || i.kind == "floor") continue;
+        double reach = 0;
+        for (const auto& p : i.parts)
+            reach = std::max(reach, std::hypot(p.x, p.y) + std::hypot(p.size.front(), p.size.back()) / 2);
+        x = std::max(x, std::abs(i.x) + reach + room), y = std::max(y, std::abs(i.y) + reach + room);
+    }
+    const auto whole = [&](double half) { return 2 * step * std::ceil(half / step); };
+    return {.kind = "floor", .name = ground, .width = whole(x), .depth = whole(y)};
 }
 
 /// Reports what a world has only once.
@@ -123,7 +140,7 @@ std::string add_to_world(const std::string& text, NewItem item, ModelTexts& mode
     if (item.name.empty()) item.name = free_name(here, item.kind);
     if (item.kind != "site" && here.has(item.name))
         throw std::invalid_argument(fmt::format("there is already a '{}'", item.name));
-    std::string added = new_item_text(item, models);
+    std::string added = new_item_text(item, contains(here.entries, "floor", &Entry::kind), models);
     const auto game = std::ranges::find(here.entries, Entry::Form::game, &Entry::form);
     const bool site = item.kind == "site", of_game = site && game != here.entries.end();
     if (site && !of_game)
@@ -142,7 +159,9 @@ std::string add_to_world(const std::string& text, NewItem item, ModelTexts& mode
     for (const auto& e : now.entries)
         if (site || item.kind == "game" || item.kind == "trials" ? e.kind == item.kind : e.name == item.name)
             id = e.id;
-    return out;
+    if (item.kind != "start" || now.has(ground)) return out;
+    std::string ground_id;
+    return add_to_world(out, ground_around(items_of_world(out, models)), models, ground_id);
 }
 
 std::string removed_from_world(const std::string& text, std::string_view id, ModelTexts& models) {

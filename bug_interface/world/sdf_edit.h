@@ -60,7 +60,8 @@ struct NewItem {
     std::string color = {};                                     ///< #rrggbb; else as usual for the kind
     std::string uri = {};  ///< of a robot or model; else the first that is found
 };
-/// The text with an item more. `id` becomes its id. Throws std::invalid_argument for an unknown kind, for a
+/// The text with an item more. `id` becomes its id. The first start pose brings a floor whose bounds end
+/// trials, when the world has none. Throws std::invalid_argument for an unknown kind, for a
 /// name that is taken, and for a second one of what a world has once.
 std::string add_to_world(const std::string& text, NewItem item, ModelTexts& models, std::string& id);
 

@@ -92,7 +92,10 @@ std::vector<ItemKind> kinds_of_items() {
     constexpr std::string_view robots = "Robots", obstacles = "Obstacles", floors = "Floor",
                                targets = "Targets", rules = "Rules and light";
     return {{"robot", "A robot that a system drives; its model is chosen below", robots},
-            {"start", "A pose in which trials begin: Reset_0 to Reset_9", robots},
+            {"start",
+             "A pose in which trials begin: Reset_0 to Reset_9. The first brings a GroundPlane, whose bounds "
+             "end trials",
+             robots},
             {"wall", "A box that robots cannot pass", obstacles},
             {"pillar", "A cylinder that robots cannot pass", obstacles},
             {"ball", "A ball that robots push", obstacles},
@@ -112,13 +115,14 @@ std::vector<ItemKind> kinds_of_items() {
             {"sun", "The light that lights everything from one direction", rules}};
 }
 
-std::string new_item_text(const NewItem& item, ModelTexts& models) {
+std::string new_item_text(const NewItem& item, bool has_floor, ModelTexts& models) {
     const auto& kind = item.kind;
     const double width = item.width.value_or(1), radius = item.radius.value_or(0.2);
     const auto color = [&](const char* usual) { return item.color.empty() ? usual : item.color; };
     const auto depth = [&](double usual) { return item.depth.value_or(usual); };
-    if (kind == "wall") return obstacle(item, {box(width, depth(0.2), 0.25), 0.125}, color("#808080"));
-    if (kind == "pillar") return obstacle(item, {cylinder(radius, 0.25), 0.125}, color("#808080"));
+    constexpr const char* dark = "#303030";  // stands out from grey floors
+    if (kind == "wall") return obstacle(item, {box(width, depth(0.2), 0.25), 0.125}, color(dark));
+    if (kind == "pillar") return obstacle(item, {cylinder(radius, 0.25), 0.125}, color(dark));
     // Paint lies just above the floor.
     if (kind == "patch") return paint(item, {box(width, depth(1), 0.002), 0.002}, color("#ff0000"));
     if (kind == "disc")
@@ -148,7 +152,7 @@ std::string new_item_text(const NewItem& item, ModelTexts& models) {
     if (kind == "start") return paint(item, {cylinder(radius, 0.0001), 0.002}, color("#b3b3b3"));
     if (kind == "floor")  // the bounds are the last collision, below everything
         return fixed(item, 0,
-                     collision(plane(), 0, "floor") + visual(plane(), color("#b3b3b3")) +
+                     collision(plane(), 0, "floor") + (has_floor ? "" : visual(plane(), color("#b3b3b3"))) +
                          collision(box(item.width.value_or(5), depth(5), 0.02), -1, "bounds"));
     if (kind == "robot") return included(item, item.uri.empty() ? robot_uri(models) : item.uri);
     if (kind == "model") return included(item, item.uri.empty() ? model_uri(models) : item.uri);

@@ -7,7 +7,8 @@
 
 namespace forage::bug {
 
-/// The element of a new item, which has a name. Throws std::invalid_argument for an unknown kind.
-std::string new_item_text(const NewItem& item, ModelTexts& models);
+/// The element of a new item, which has a name. A floor in a world that `has_floor` gives only its bounds.
+/// Throws std::invalid_argument for an unknown kind.
+std::string new_item_text(const NewItem& item, bool has_floor, ModelTexts& models);
 
 }  // namespace forage::bug

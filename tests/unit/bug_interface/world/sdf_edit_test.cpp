@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "bug_interface/motion/reset.h"
 #include "bug_interface/world/sdf_reader.h"
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
@@ -181,7 +182,8 @@ TEST_CASE(
             const auto items = items_of_world(more, models);
             const bool game =
                 kind == "site" && std::ranges::find(before, "game", &WorldItem::kind) == before.end();
-            CHECK(items.size() == before.size() + (game ? 2 : 1));
+            const bool ground = kind == "start" && items.size() == before.size() + 2;
+            CHECK(items.size() == before.size() + (game || ground ? 2 : 1));
             const auto& item = find_item(items, id);
             const std::string expected = kind == "pillar" || kind == "wall"  ? "wall"
                                          : kind == "disc"                    ? "patch"
@@ -199,6 +201,7 @@ TEST_CASE(
                 INFO(format(diagnostics));
                 CHECK_FALSE(diagnostics.failed());
             }
+            if (ground) more = removed_from_world(more, "GroundPlane", models);
             CHECK(removed_from_world(more, game ? "Game" : id, models) == text);
         }
     }
@@ -294,6 +297,7 @@ TEST_CASE("an edited world is read as what it says") {
     };
     CHECK_FALSE(find_model(world, "Wall"));
     CHECK(find("East")->is_static);
+    CHECK(find("East")->links.front().visuals.front().material.diffuse.maxCoeff() < 0.25f);  // on grey floors
     CHECK(find("Red")->links.front().collisions.empty());
     const auto* ball = find("Ball");
     CHECK_FALSE(ball->is_static);
@@ -309,6 +313,26 @@ TEST_CASE("an edited world is read as what it says") {
     CHECK(bug->plugins.size() == 2);
     CHECK(find("GroundPlane")->links.front().collisions.back().shape.size.x() == Approx(6));
     CHECK_FALSE(find("GroundPlane")->links.front().visuals.front().material.texture.empty());
+}
+
+TEST_CASE("a start pose brings the bounds that end trials, once, and leaves the floor its colour") {
+    const auto file = paths::source_dir() / "systems/worlds/empty_floor.world";
+    std::string text = read_file(file.string()), id;
+    ModelTexts models(file.string());
+    text = add_to_world(text, {.kind = "wall", .name = "", .x = 4, .width = 1}, models, id);
+    text = add_to_world(text, {.kind = "start", .name = "", .x = 0, .y = -6}, models, id);
+    CHECK(id == "Reset_0");
+    text = add_to_world(text, {.kind = "start", .name = "", .x = 1}, models, id);
+    const auto world = read_text_of_world(file, text);
+    const auto* ground = find_model(world, "GroundPlane");
+    REQUIRE(ground);
+    CHECK(ground->links.front().visuals.empty());  // the floor that was there stays in sight
+    Diagnostics diagnostics;
+    const auto plan = find_reset(world, diagnostics);
+    INFO(format(diagnostics));
+    REQUIRE(plan);
+    CHECK(plan->starts.size() == 2);
+    CHECK(plan->bounds.contains(Eigen::Vector2d(4.5, -6.5)));
 }
 
 TEST_CASE("what cannot be done to a world is said") {
