@@ -100,6 +100,21 @@ export default async function({ forage, site, folder, start, open, onDisk, fault
   await until(page, 'it is gone', (n) => document.querySelectorAll('[aria-label="Map of the world"] [role=button]').length === n, items + 1);
   await map.locator(`[data-id="${name}"]`).focus();
 
+  step('a patch is drawn from one corner to the other, as a floor is');
+  await world.getByRole('button', { name: 'patch', exact: true }).click();
+  await page.mouse.move(...(await at(0.3, 0.7)));
+  await page.mouse.down();
+  await page.mouse.move(...(await at(0.35, 0.9)), { steps: 3 });
+  await page.mouse.up();
+  await map.getByRole('button').nth(items + 1).waitFor();
+  await until(page, 'the size of the drag', () => {
+    const size = (label) => Number([...document.querySelectorAll('[aria-label^="Properties of"] .field')].find((f) => f.querySelector('label').textContent === label)?.querySelector('input').value);
+    return size('Depth, m') > size('Width, m') && size('Width, m') < 1;
+  });
+  await page.keyboard.press('Control+z');
+  await until(page, 'it is gone', (n) => document.querySelectorAll('[aria-label="Map of the world"] [role=button]').length === n, items + 1);
+  await map.locator(`[data-id="${name}"]`).focus();
+
   step('keys resize it, too');
   await map.locator('.chosen').focus();
   await page.keyboard.press('Control+ArrowRight');
