@@ -175,9 +175,13 @@ Equivalent of_world_edit(const EditedFile& file, const nlohmann::json& operation
             call_of(fmt::format("forage.edit_file({}, ", literal(file.path)), operations)};
 }
 
-Equivalent of_world_copy(const EditedFile& file, const std::string& to) {
-    return {fmt::format("forage edit {} '[]' -o {}", shell_word(file.path), shell_word(to)),
-            fmt::format("forage.edit_file({}, [], save_as={})", literal(file.path), literal(to))};
+Equivalent of_world_copy(const EditedFile& file, const nlohmann::json& operations, const std::string& to) {
+    const std::string edits = shell_word(text_of(operations));
+    std::vector<std::string> calls;
+    for (const auto& o : operations) calls.push_back(in_python(o));
+    return {fmt::format("forage edit {} {} -o {}", shell_word(file.path), edits, shell_word(to)),
+            fmt::format("forage.edit_file({}, [{}], save_as={})", literal(file.path), fmt::join(calls, ", "),
+                        literal(to))};
 }
 
 Equivalent of_move(const std::string& name, double x, double y, double heading, std::uint64_t cycle) {

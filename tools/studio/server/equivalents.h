@@ -47,8 +47,8 @@ Equivalent of_edit(const EditedFile& file, const nlohmann::json& operations);
 Equivalent of_save(const EditedFile& file, const std::string& to);
 /// Operations on the world in a file; empty as those of a system are.
 Equivalent of_world_edit(const EditedFile& file, const nlohmann::json& operations);
-/// A world that is saved under another name.
-Equivalent of_world_copy(const EditedFile& file, const std::string& to);
+/// A world that is saved under another name, after these operations.
+Equivalent of_world_copy(const EditedFile& file, const nlohmann::json& operations, const std::string& to);
 /// A robot or an object that is moved before the cycle with this number.
 Equivalent of_move(const std::string& name, double x, double y, double heading, std::uint64_t cycle);
 /// A new trial before the cycle with this number; `start` is -1 for the next start pose.

@@ -137,8 +137,12 @@ void Session::note_opening() {
 
 bool Session::comes_with_forage(const std::string& path) const {
     if (shipped_.empty() || path.empty()) return false;
-    const auto folder = std::filesystem::absolute(shipped_).lexically_normal();
-    const auto inside = std::filesystem::absolute(path).lexically_normal().lexically_relative(folder);
+    // In a build folder, the systems are a link to those of the sources.
+    const auto place = [](const std::string& p) {
+        std::error_code none;
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(p), none);
+    };
+    const auto inside = place(path).lexically_relative(place(shipped_));
     return !inside.empty() && *inside.begin() != "..";
 }
 

@@ -7,6 +7,7 @@
 #include "bug_interface/world/sdf_edit.h"
 #include "core/base/number.h"
 #include "core/base/output_files.h"
+#include "core/base/sequence.h"
 #include "core/base/text_file.h"
 #include "tools/api/edit/world_operations.h"
 #include "tools/studio/server/commands/shared.h"
@@ -85,22 +86,36 @@ json edit_world(Session& s, const Request& r) {
     return {{"ids", std::move(ids)}, {"generation", s.edited.generation}};
 }
 
+/// The operations that let a world which is called as its file be called as the file `to`.
+json renaming(const WorldText& world, const std::string& to, bug::ModelTexts& models) {
+    const auto stem = [](const std::string& path) { return std::filesystem::path(path).stem().string(); };
+    const auto items = bug::items_of_world(world.text, models);
+    const auto it = std::ranges::find(items, "world", &bug::WorldItem::kind);
+    if (it == items.end() || it->name != stem(world.path) || contains(items, stem(to), &bug::WorldItem::name))
+        return json::array();
+    return {{{"do", "set"}, {"id", it->id}, {"property", "name"}, {"value", stem(to)}}};
+}
+
 json save_world(Session& s, const Request& r) {
     auto& world = world_text(s);
     const auto file = r.has("file") ? r.text("file") : world.path;
     check_writable(s, file, FileKind::world, r.flag("overwrite") || file == world.path);
     if (file == world.path && !r.flag("overwrite") && read_file(file) != world.saved)
         throw FileExists(fmt::format("'{}' was changed outside since it was read", file), "overwrite it");
+    bug::ModelTexts models(world.path);
+    const auto renamed = renaming(world, file, models);
+    std::string text = world.text;
+    for (const auto& o : renamed) editing::carry_out_in_world(o, text, models);
     RunInput wanted = s.live.begun;  // with the text that the system had: its file may have changed
-    wanted.world = file, wanted.world_text = world.text;
+    wanted.world = file, wanted.world_text = text;
     open_run(wanted);  // a world in which the system cannot run is not written
     auto forms = begun_again(s, of_world, file);
     if (file != world.path) {
-        const auto copy = of_world_copy(s.edited_file(world.path), file);
+        const auto copy = of_world_copy(s.edited_file(world.path), renamed, file);
         forms = copy + forms;
     }
-    write_file(file, world.text);
-    world.saved = world.text, world.path = file;
+    write_file(file, text);
+    world.text = world.saved = text, world.path = file;
     RunInput input = s.edited.input;
     input.world = file, input.world_text.clear();
     const auto ended = s.lost_by_rebuild();

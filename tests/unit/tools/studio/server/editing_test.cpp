@@ -1195,9 +1195,15 @@ TEST_CASE("actions that restart the run say what they end, and how to do it with
     ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
     const std::string mine = (e.folder / "mine.world").string();
     reported = action({{"command", "world_save"}, {"file", mine}});
-    CHECK(reported["shell"] == "forage edit '" + arena + "' '[]' -o '" + mine + "'\n--world '" + mine + "'");
-    CHECK(reported["python"] == "forage.edit_file(\"" + arena + "\", [], save_as=\"" + mine + "\")\n" + open +
-                                    mine + "\", seed=8)");
+    const std::string renamed =
+        R"([{"do":"set","id":"open_arena","property":"name","value":"mine"}])";  // as its file is called
+    CHECK(reported["shell"] ==
+          "forage edit '" + arena + "' '" + renamed + "' -o '" + mine + "'\n--world '" + mine + "'");
+    CHECK(e.last["world_document"]["items"][0]["name"] == "mine");
+    CHECK(reported["python"] ==
+          "forage.edit_file(\"" + arena +
+              R"(", [{"do": "set", "id": "open_arena", "property": "name", "value": "mine"}], save_as=")" +
+              mine + "\")\n" + open + mine + "\", seed=8)");
     reported = action({{"command", "world_save"}});
     CHECK(reported["shell"] == "--world '" + mine + "'");
 }

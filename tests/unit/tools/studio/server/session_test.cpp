@@ -596,6 +596,16 @@ TEST_CASE("a world that comes with Forage is not written") {
     CHECK(refused["ok"] == false);
     CHECK(refused.dump().find("stays as it is") != std::string::npos);
     CHECK(read_file(world) == before);
+    // Also under the name by which a link of its folder leads to it.
+    const auto link = test::temporary_path("forage-studio-shipped");
+    std::filesystem::remove(link);
+    std::filesystem::create_directory_symlink(FORAGE_SOURCE_DIR "/systems", link);
+    Session linked(
+        Fixture::input(), [](int, bool, const std::string&) {}, {}, link.string());
+    CHECK(linked.comes_with_forage(world));
+    CHECK(linked.comes_with_forage((link / "worlds/own.world").string()));
+    CHECK_FALSE(linked.comes_with_forage((link.parent_path() / "own.world").string()));
+    std::filesystem::remove(link);
 }
 
 TEST_CASE("a restart tells its seed, and how to do it without the studio") {

@@ -29,6 +29,9 @@ interface FileTask {
 const saved = ({ file }: { file: string }) => actions.notify('info', `Saved as ${baseName(file)}.`);
 const world = () => worldFile.document?.file ?? model.world?.file ?? '';
 
+/** The name under which a file is saved: one that comes with Forage gets one of its user's own. */
+const ownName = (file: string, shipped = false) => (shipped ? `my ${baseName(file)}` : baseName(file));
+
 /** The name of a system that begins empty. */
 const newName = 'New system';
 
@@ -39,7 +42,7 @@ const tasks: Record<FileAction, (process: string) => FileTask> = {
     verb: 'Save',
     files: /\.(iqr|xml)$/,
     ending: '.iqr',
-    name: baseName(editing.backupOf ?? editing.file) || `${model.system?.name || 'system'}.iqr`,
+    name: ownName(editing.backupOf ?? editing.file, editing.shipped) || `${model.system?.name || 'system'}.iqr`,
     act: async (file, overwrite) => {
       await sendAll();
       saved(await request('save', { file, overwrite }));
@@ -92,7 +95,7 @@ const tasks: Record<FileAction, (process: string) => FileTask> = {
     title: 'Save the world as',
     verb: 'Save',
     ending: '.world',
-    name: baseName(world()),
+    name: ownName(world(), worldFile.document?.shipped),
     beside: world(),
     act: async (file, overwrite) => saved(await request('world_save', { file, overwrite })),
   }),
