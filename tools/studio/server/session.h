@@ -129,8 +129,8 @@ class Session {
     void follow_document(const std::string& title, const Equivalent& script = {});
     /// Rebuilds the run; groups and connections that did not change keep their states. Returns false, with
     /// the run as it was, when the system cannot run.
-    /// At cycle 0 it restarts, unless it `continues` there, too.
-    bool rebuild(bool continues = false);
+    /// At cycle 0 it restarts, unless it `continues` there, too. It has no past, unless it `keeps_past`.
+    bool rebuild(bool continues = false, bool keeps_past = false);
     /// What ends when the run is rebuilt: "past", "comparison", "recording".
     std::vector<std::string> lost_by_rebuild() const;
     /// Changes parameters in the document, too, when its items have them. Returns whether its text changed.

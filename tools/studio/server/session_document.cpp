@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "core/base/archive.h"
 #include "core/base/sequence.h"
 #include "core/model/build.h"
 #include "core/model/changes.h"
@@ -24,6 +25,19 @@ namespace {
 bool has_errors(const std::vector<Document::Problem>& problems) {
     return std::ranges::any_of(problems,
                                [](const auto& p) { return p.diagnostic.severity == Severity::error; });
+}
+
+/// Whether two systems differ in names of processes and groups alone, which change no number.
+bool differ_in_names(model::System before, const model::System& after, const Registry& registry) {
+    for (auto& p : before.processes) {
+        const auto* now = find_by(after.processes, p.id, &model::Process::id);
+        if (!now) return false;
+        p.name = now->name;
+        for (auto& g : p.groups)
+            if (const auto* same = find_by(now->groups, g.id, &model::Group::id)) g.name = same->name;
+    }
+    const auto changes = model::parameter_changes(before, after, registry);
+    return changes && changes->empty();
 }
 
 /// Whether an error is in the file of a system, or in one that it links.
@@ -230,8 +244,12 @@ void Session::follow_document(const std::string& title, const Equivalent& script
     const bool waited = edited.wanted.has_value();
     std::vector<std::string> ended;
     const auto rebuild_run = [&] {
+        // Actions of the past have the names of before.
+        const bool keeps_past = !waited && live.history.actions().empty() &&
+                                differ_in_names(edited.built, now, live.run->registry());
         auto lost = lost_by_rebuild();
-        edited.current = rebuild();
+        if (keeps_past) std::erase(lost, "past");
+        edited.current = rebuild(false, keeps_past);
         if (edited.current) edited.built = now, ended = std::move(lost);
     };
     if (!edited.document->readable()) {
@@ -279,7 +297,7 @@ std::vector<std::string> Session::lost_by_rebuild() const {
     return out;
 }
 
-bool Session::rebuild(bool continues) {
+bool Session::rebuild(bool continues, bool keeps_past) {
     RunInput input = edited.wanted ? *edited.wanted : edited.input;
     // What was chosen while the system waited for its corrections.
     if (edited.wanted) input.world = edited.input.world, input.seed = edited.input.seed;
@@ -292,7 +310,12 @@ bool Session::rebuild(bool continues) {
     const auto build = [&](bool adopts) {
         built.reset();  // two runs do not open the same device
         built = build_run(sources, set, live.run->seed(), diagnostics);
-        if (built && adopts) built->run->adopt(*live.run);
+        if (!built || !adopts) return;
+        if (!keeps_past) return built->run->adopt(*live.run);
+        Archive out;  // all of it, also random numbers
+        live.run->checkpoint(out);
+        Archive in{std::string_view(out.bytes())};
+        built->run->checkpoint(in);
     };
     try {
         try {
@@ -312,9 +335,11 @@ bool Session::rebuild(bool continues) {
     edited.problems = edited.document->located(diagnostics);
     if (!built) return false;
     Run& run = *built->run;
+    const bool restarted = run.cycle() != live.run->cycle();
     close_sampler();
     end_reference();
     for (const auto& [number, manipulation] : live.manipulations->groups()) {
+        if (keeps_past && !restarted) break;  // they are part of its state
         auto settings = manipulation.settings();
         const auto& id = live.run->layout().groups[static_cast<std::size_t>(number)].id;
         const auto& groups = run.layout().groups;
@@ -326,7 +351,6 @@ bool Session::rebuild(bool continues) {
         settings.group = static_cast<int>(it - groups.begin());
         built->manipulations->put(std::move(settings));
     }
-    const bool restarted = run.cycle() != live.run->cycle();
     run.title = live.run->title;
     live.take_run(std::move(*built));
     if (auto& pause = live.pause_when) {
@@ -343,7 +367,7 @@ bool Session::rebuild(bool continues) {
         edited.wanted.reset(), edited.mistakes = {};
     }
     live.begun = std::move(set);
-    live.history.begin(*live.run);
+    if (restarted || !keeps_past) live.history.begin(*live.run);
     if (restarted) rewound();  // a run that has failed does not continue
     pages.rebind(*live.run);
     return true;

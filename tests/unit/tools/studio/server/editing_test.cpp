@@ -1093,6 +1093,34 @@ TEST_CASE("every page knows a system that is opened from an edit of the one befo
     }
 }
 
+TEST_CASE("another name keeps the past, unless there are actions in it, which have the name of before") {
+    Editor e;
+    const auto rename = [&](const char* id, const char* name) {
+        e.edit({{{"do", "rename"}, {"id", id}, {"name", name}}});
+        return e.last["action"]["ended"];
+    };
+    const auto digest = [&] { return e.result({{"command", "digest"}})["digest"]; };
+    const auto state_at_20 = [&] {
+        e.result({{"command", "seek"}, {"cycle", 20}});
+        return digest();
+    };
+    e.result({{"command", "step"}, {"cycles", 40}});
+    const auto now = digest();
+    const auto before = state_at_20();
+    e.result({{"command", "seek"}, {"cycle", 40}});
+    CHECK(rename("bug.light", "Lamp") == json::array());
+    CHECK(digest() == now);
+    CHECK(state_at_20() == before);
+    e.result({{"command", "seek"}, {"cycle", 40}});
+    CHECK(rename("bug", "Beetle") == json::array());
+    CHECK(e.session->status()["history"] == json{{"first", 0}, {"last", 40}});
+    CHECK(digest() == now);
+    e.result({{"command", "set"}, {"assignments", {"Beetle/Lamp.threshold=0.3"}}});
+    e.result({{"command", "step"}, {"cycles", 2}});
+    CHECK(rename("bug.light", "Light") == json({"past"}));
+    CHECK(e.session->status()["history"] == json{{"first", 42}, {"last", 42}});
+}
+
 TEST_CASE("an edit of the structure says what it ends: the past, a comparison, a recording") {
     Editor e;
     const auto add = [&](const std::string& id) {
