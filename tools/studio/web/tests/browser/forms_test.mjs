@@ -136,15 +136,15 @@ export default async function({ site, folder, context, start, open, faults, step
   await until(page, 'the former value', () => document.getElementById('Bug/Motor.vmPrs')?.value === '0');
   await persistence.fill('7');
   await persistence.press('Enter');
-  await alert('7 is too large: 0 to 1.');
-  assert.equal(await persistence.inputValue(), '0');
+  await alert('7 is outside of the usual range, 0 to 1.');
+  assert.equal(await persistence.inputValue(), '7', 'what is refused can be mended');
   await persistence.fill('a');
   await persistence.press('Enter');
   await alert("'a' is not a number.");
   assert.equal(await inspector.getByRole('button', { name: 'Use 7 all the same' }).count(), 0, 'one reason at a time');
   await persistence.fill('7');
   await persistence.press('Enter');
-  await alert('7 is too large: 0 to 1.');
+  await alert('7 is outside of the usual range, 0 to 1.');
   await page.getByRole('button', { name: /problem/ }).waitFor({ state: 'detached' });
   await inspector.getByRole('button', { name: 'Use 7 all the same' }).click();
   await until(page, 'the unusual value', () => document.getElementById('Bug/Motor.vmPrs')?.value === '7');
