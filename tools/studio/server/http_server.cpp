@@ -153,7 +153,8 @@ class HttpServer::Parts::Page : public std::enable_shared_from_this<Page> {
             auto& server = self->server_;
             if (error || !self->socket_.got_text()) return self->end();
             if (!server.admits(token_in(self->take())))
-                return self->refuse("Open the address that 'forage studio' printed.");
+                return self->refuse(
+                    "This tab has no key. Open the whole address that 'forage studio' printed.");
             if (server.pages.size() >= max_pages) return self->refuse("Too many pages are open.");
             server.guests.erase(self->guest_);
             self->deadline_.cancel();
