@@ -25,7 +25,7 @@ interface PanelKind {
   words?: string;
   /** The least size in which it is of use, in pixels, where it is more than that of all panels. */
   least?: { minimumWidth: number; minimumHeight: number };
-  load(): Promise<{ default: Component<PanelProps> }>;
+  load(): Promise<{ default: Component<PanelProps> | Component<Record<string, never>> }>;
 }
 
 /** Whether a panel shows a part of the system. */
