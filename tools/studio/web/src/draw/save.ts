@@ -113,17 +113,10 @@ export function linesSvg(x: ArrayLike<number>, lines: { label: string; colour: s
   const x0 = x[0] ?? 0, x1 = x[x.length - 1] ?? 1;
   const px = (v: number) => (50 + ((v - x0) / (x1 - x0 || 1)) * (width - 60)).toFixed(1);
   const py = (v: number) => (height - 24 - ((v - low) / (high - low)) * (height - 44)).toFixed(1);
-  const paths = lines.map((l) => {
-    let d = '', pen = 'M';
-    for (let i = 0; i < x.length; i++) {
-      if (!Number.isFinite(l.y[i]!)) {
-        pen = 'M';
-        continue;
-      }
-      d += `${pen}${px(x[i]!)} ${py(l.y[i]!)}`;
-      pen = 'L';
-    }
-    return `<path d="${d}" fill="none" stroke="${l.colour}" stroke-width="1.5"/>`;
+  const paths = lines.map(({ y, colour }) => {
+    const known = (i: number) => Number.isFinite(y[i]);
+    const d = Array.from(x, (t, i) => (known(i) ? `${known(i - 1) ? 'L' : 'M'}${px(t)} ${py(y[i]!)}` : '')).join('');
+    return `<path d="${d}" fill="none" stroke="${colour}" stroke-width="1.5"/>`;
   });
   // The keys stand side by side, in as many rows above the lines as they need.
   let right = 56, above = 0;

@@ -34,12 +34,6 @@ export function* all(tags: Tag[]): Generator<Tag> {
   }
 }
 
-const nameAt = /[\w:.-]*/y;
-const spaceAt = /\s*/y;
-const read = (pattern: RegExp, text: string, at: number): string => {
-  pattern.lastIndex = at;
-  return pattern.exec(text)![0];
-};
 const decoded = (value: string) => value.replace(/&(lt|gt|quot|apos|amp);/g, (_, e: string) => ({ lt: '<', gt: '>', quot: '"', apos: "'", amp: '&' })[e]!);
 
 /** Reads a text from its beginning. `place` is what can be written at its end. */
@@ -49,6 +43,13 @@ export function scan(text: string): { tags: Tag[]; place: Place } {
   let at = 0;
   const end = text.length;
   const done = (place: Place) => ({ tags, place });
+  /** What stands here, if it is of this pattern. The next thing is read behind it. */
+  const take = (pattern: RegExp): string => {
+    pattern.lastIndex = at;
+    const found = pattern.exec(text)?.[0] ?? '';
+    at += found.length;
+    return found;
+  };
   while (at < end) {
     const begin = text.indexOf('<', at);
     if (begin < 0) break;
@@ -60,48 +61,27 @@ export function scan(text: string): { tags: Tag[]; place: Place } {
       at = close + skipped[1]!.length;
       continue;
     }
-    if (text[at] === '/') {
-      const name = read(nameAt, text, at + 1);
-      if (at + 1 + name.length === end) return done({ kind: 'close', parent: open, from: at + 1 });
+    const closes = take(/\//y), named = at, name = take(/[\w:.-]*/y);
+    if (at === end) return done({ kind: closes ? 'close' : 'element', parent: open, from: named });
+    if (closes) {
       const closed = around(open, name);
       if (closed) open = closed.parent;
-      at += 1 + name.length;
-      continue;
     }
-    const name = read(nameAt, text, at);
-    if (at + name.length === end) return done({ kind: 'element', parent: open, from: at });
-    if (!name) continue;
+    if (closes || !name) continue;
     const tag: Tag = { name, from: begin, attributes: [], children: [], parent: open };
     (open?.children ?? tags).push(tag);
-    at += name.length;
-    let ends = false;
-    while (!ends) {
-      const space = read(spaceAt, text, at);
-      at += space.length;
+    for (;;) {
+      const space = take(/\s*/y);
       if (at === end) return done(space ? { kind: 'attribute', tag, from: at } : { kind: 'nothing' });
       if (text[at] === '<') break; // the tag has no end
-      if (text.startsWith('/>', at) || text[at] === '>') {
-        ends = true;
-        if (text[at] === '>') open = tag;
-        at += text[at] === '>' ? 1 : 2;
-        continue;
-      }
-      const attribute = read(nameAt, text, at);
-      if (!attribute) {
-        at += 1; // what cannot stand here
-        continue;
-      }
-      const from = at;
-      at += attribute.length;
+      const ends = take(/\/?>/y);
+      if (ends === '>') open = tag;
+      if (ends) break;
+      const from = at, attribute = take(/[\w:.-]+/y);
       if (at === end) return done({ kind: 'attribute', tag, from });
-      const equals = /\s*=\s*/y;
-      equals.lastIndex = at;
-      const sign = equals.exec(text);
-      if (!sign) continue;
-      at += sign[0].length;
-      const quote = text[at];
-      if (quote !== '"' && quote !== "'") continue;
-      at += 1;
+      if (!attribute) at += 1; // what cannot stand here
+      const quote = attribute && take(/\s*=\s*/y) && take(/["']/y);
+      if (!quote) continue;
       // A value holds no '<': without a closing quote it ends there.
       const close = [text.indexOf(quote, at), text.indexOf('<', at)].filter((i) => i >= 0);
       if (!close.length) return done({ kind: 'value', tag, attribute, from: at });
