@@ -1,6 +1,6 @@
 // Changes of the document. Each call is one step of undo.
 import type { Operation } from '../protocol/commands';
-import type { ConnectionKind, ParameterInfo, ParameterValue } from '../protocol/messages';
+import type { ParameterInfo, ParameterValue } from '../protocol/messages';
 import { actions } from '../stores/actions.svelte';
 import { request } from '../studio';
 
@@ -20,18 +20,7 @@ export function setParameter(ids: string[], p: ParameterInfo, value: ParameterVa
   void edit(ids.map((id) => ({ do: 'parameter', id, name: p.name, value: String(value) })), undefined, `${ids.join()}.${p.name}`);
 }
 
-export interface NewConnection {
-  source: string;
-  target: string;
-  kind: ConnectionKind;
-  source_anchor: number;
-  target_anchor: number;
-  /** On the page of both groups; or, between processes, on the page of one of them. */
-  vertices?: [number, number][];
-  source_vertices?: [number, number][];
-  target_vertices?: [number, number][];
-}
-
-export async function connect(c: NewConnection): Promise<string | null> {
+/** Connects two groups. Its vertices are on the page of both groups; or, between processes, on the page of one of them. */
+export async function connect(c: Omit<Extract<Operation, { do: 'add_connection' }>, 'do'>): Promise<string | null> {
   return (await edit({ do: 'add_connection', wiring: 'fitting', ...c }))?.[0] ?? null;
 }

@@ -112,11 +112,9 @@ function values(tag: Tag, attribute: string, text: string, known: Knowledge): Su
   const type = typesOf(types, holder?.name).find((t) => t.type === valueOf(holder, 'name'));
   switch (rule.names) {
     case 'neuron':
-      return typeList(types.neurons);
     case 'synapse':
-      return typeList(types.synapses);
     case 'module':
-      return typeList(types.modules);
+      return typeList(types[`${rule.names}s`]);
     case 'parameter': {
       const there = new Set((holder?.children ?? []).filter((c) => c !== tag).map((c) => valueOf(c, 'name')));
       return (type?.parameters ?? []).filter((p) => !there.has(p.name)).map((p) => ({
