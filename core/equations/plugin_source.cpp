@@ -1,12 +1,14 @@
 #include "core/equations/plugin_source.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "core/equations/compile.h"
+#include "core/formula/operations.h"
 
 namespace forage::equations {
 namespace {
@@ -26,87 +28,55 @@ std::string literal(double value) {
     return out.find_first_of(".en") == out.npos ? out + ".0" : out;
 }
 
+/// An operator or a function in C++: its text around its parts, and how tightly it and each part, which
+/// otherwise stands in parentheses, hold together.
+struct CodeForm {
+    Op op;
+    const char* text;
+    int rank = 9;
+    std::array<int, 3> parts = {};
+};
+constexpr CodeForm code_forms[] = {
+    {Op::add, "{} + {}", 4, {4, 5}},
+    {Op::subtract, "{} - {}", 4, {4, 5}},
+    {Op::multiply, "{} * {}", 5, {5, 6}},
+    {Op::divide, "{} / {}", 5, {5, 6}},
+    {Op::power, "forage::power({}, {})"},
+    {Op::negative, "-{}", 6, {6}},
+    {Op::less, "({} < {} ? 1.0 : 0.0)", 9, {4, 4}},
+    {Op::at_most, "({} <= {} ? 1.0 : 0.0)", 9, {4, 4}},
+    {Op::more, "({} > {} ? 1.0 : 0.0)", 9, {4, 4}},
+    {Op::at_least, "({} >= {} ? 1.0 : 0.0)", 9, {4, 4}},
+    {Op::equal, "({} == {} ? 1.0 : 0.0)", 9, {4, 4}},
+    {Op::unequal, "({} != {} ? 1.0 : 0.0)", 9, {4, 4}},
+    {Op::both, "({} != 0 && {} != 0 ? 1.0 : 0.0)", 9, {4, 4}},
+    {Op::either, "({} != 0 || {} != 0 ? 1.0 : 0.0)", 9, {4, 4}},
+    {Op::inverse, "({} == 0 ? 1.0 : 0.0)", 9, {4}},
+    {Op::minimum, "std::min({}, {})"},
+    {Op::maximum, "std::max({}, {})"},
+    {Op::clip, "std::min(std::max({}, {}), {})"},
+    {Op::choice, "({} != 0 ? {} : {})", 9, {4, 4, 4}},
+    {Op::absolute, "std::abs({})"},
+    {Op::exponential, "std::exp({})"},
+    {Op::logarithm, "std::log({})"},
+    {Op::root, "std::sqrt({})"},
+    {Op::sine, "std::sin({})"},
+    {Op::cosine, "std::cos({})"},
+    {Op::hyperbolic_tangent, "std::tanh({})"},
+    {Op::floor, "std::floor({})"},
+    {Op::round, "std::round({})"},
+};
+
 /// A formula in C++; `name_of` says what its names are there.
 template <class NameOf>
 Code translated(const Formula& f, const Formula::Node& n, const NameOf& name_of) {
-    const auto part = [&](int i) { return translated(f, f.nodes()[n.parts[i]], name_of); };
-    const auto binary = [&](const char* op, int rank) {
-        return Code{fmt::format("{} {} {}", at_least(part(0), rank), op, at_least(part(1), rank + 1)), rank};
-    };
-    const auto truth = [](const Code& c) { return at_least(c, 4) + " != 0"; };
-    const auto flag = [](const std::string& condition) { return Code{"(" + condition + " ? 1.0 : 0.0)"}; };
-    const auto compared = [&](const char* op) {
-        return flag(fmt::format("{} {} {}", at_least(part(0), 4), op, at_least(part(1), 4)));
-    };
-    const auto call = [&](const char* function, int parts) {
-        std::string out = function;
-        for (int i = 0; i < parts; ++i) out += (i ? ", " : "(") + part(i).text;
-        return Code{out + ")"};
-    };
-    switch (n.op) {
-        case Op::number:
-            return {literal(n.value)};
-        case Op::name:
-            return {name_of(f.name(n), n.at)};
-        case Op::add:
-            return binary("+", 4);
-        case Op::subtract:
-            return binary("-", 4);
-        case Op::multiply:
-            return binary("*", 5);
-        case Op::divide:
-            return binary("/", 5);
-        case Op::power:
-            return call("forage::power", 2);
-        case Op::negative:
-            return {"-" + at_least(part(0), 6), 6};
-        case Op::less:
-            return compared("<");
-        case Op::at_most:
-            return compared("<=");
-        case Op::more:
-            return compared(">");
-        case Op::at_least:
-            return compared(">=");
-        case Op::equal:
-            return compared("==");
-        case Op::unequal:
-            return compared("!=");
-        case Op::both:
-            return flag(truth(part(0)) + " && " + truth(part(1)));
-        case Op::either:
-            return flag(truth(part(0)) + " || " + truth(part(1)));
-        case Op::inverse:
-            return flag(at_least(part(0), 4) + " == 0");
-        case Op::minimum:
-            return call("std::min", 2);
-        case Op::maximum:
-            return call("std::max", 2);
-        case Op::clip:
-            return {fmt::format("std::min(std::max({}, {}), {})", part(0).text, part(1).text, part(2).text)};
-        case Op::choice:
-            return {
-                fmt::format("({} ? {} : {})", truth(part(0)), at_least(part(1), 4), at_least(part(2), 4))};
-        case Op::absolute:
-            return call("std::abs", 1);
-        case Op::exponential:
-            return call("std::exp", 1);
-        case Op::logarithm:
-            return call("std::log", 1);
-        case Op::root:
-            return call("std::sqrt", 1);
-        case Op::sine:
-            return call("std::sin", 1);
-        case Op::cosine:
-            return call("std::cos", 1);
-        case Op::hyperbolic_tangent:
-            return call("std::tanh", 1);
-        case Op::floor:
-            return call("std::floor", 1);
-        case Op::round:
-            return call("std::round", 1);
-    }
-    return {};
+    if (n.op == Op::number) return {literal(n.value)};
+    if (n.op == Op::name) return {name_of(f.name(n), n.at)};
+    const CodeForm& form = *std::ranges::find(code_forms, n.op, &CodeForm::op);
+    std::array<std::string, 3> parts;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(operands(n.op)); ++i)
+        parts[i] = at_least(translated(f, f.nodes()[n.parts[i]], name_of), form.parts[i]);
+    return {fmt::format(fmt::runtime(form.text), parts[0], parts[1], parts[2]), form.rank};
 }
 
 /// Writes the source.

@@ -773,6 +773,10 @@ class Others(Cli):
         source = self.forage("convert", model, "-", "--as-plugin", "oja").stdout
         self.assertIn("FORAGE_PLUGIN(oja);", source)
         self.assertIn("did you mean 'oja'", self.forage("convert", model, "-", "--as-plugin", "oya", status=2).stderr)
+        noise = self.here / "noise.iqr"
+        noise.write_text('<System id="s" name="S"><NeuronType name="n"><Equations>output y = uniform() - 2 * uniform()</Equations></NeuronType></System>')
+        source = self.forage("convert", noise, "-", "--as-plugin", "n").stdout
+        self.assertIn("in.random[0] - 2.0 * in.random[1]", source, "numbers are drawn in the order of the text, as the type draws them")
 
     def test_a_system_is_described(self):
         text = self.forage("describe", SYSTEM).stdout

@@ -8,6 +8,7 @@
 #include "core/base/number.h"
 #include "core/base/separated.h"
 #include "core/equations/statements.h"
+#include "core/formula/operations.h"
 #include "core/types/parameter.h"
 
 namespace forage {
@@ -37,8 +38,43 @@ std::string number_text(double value) {
     return fmt::format("{}10^{{{}}}", factor == "1" ? "" : factor + "\\cdot ", std::stoi(text.substr(e + 1)));
 }
 
-/// How tightly the outermost operator of a term holds it together.
-enum class Strength { weakest, either, both, comparison, sum, product, power, atom };
+/// How tightly the outermost operator of a term holds it together; a part that must be `enclosed` is in
+/// parentheses always.
+enum class Strength { weakest, either, both, comparison, sum, product, power, atom, enclosed };
+
+/// An operator or a function: its text around its parts, its strength, and that which each part needs.
+struct TermForm {
+    Op op;
+    const char* text;
+    Strength strength = Strength::atom;
+    std::array<Strength, 3> parts = {};
+};
+constexpr TermForm term_forms[] = {
+    {Op::add, "{} + {}", Strength::sum, {Strength::sum, Strength::product}},
+    {Op::subtract, "{} - {}", Strength::sum, {Strength::sum, Strength::product}},
+    {Op::power, "{}^{{{}}}", Strength::power, {Strength::atom}},
+    {Op::negative, "-{}", Strength::sum, {Strength::product}},
+    {Op::less, "{} < {}", Strength::comparison, {Strength::comparison, Strength::sum}},
+    {Op::at_most, "{} \\le {}", Strength::comparison, {Strength::comparison, Strength::sum}},
+    {Op::more, "{} > {}", Strength::comparison, {Strength::comparison, Strength::sum}},
+    {Op::at_least, "{} \\ge {}", Strength::comparison, {Strength::comparison, Strength::sum}},
+    {Op::equal, "{} = {}", Strength::comparison, {Strength::comparison, Strength::sum}},
+    {Op::unequal, "{} \\ne {}", Strength::comparison, {Strength::comparison, Strength::sum}},
+    {Op::both, "{}\\ \\text{{and}}\\ {}", Strength::both, {Strength::both, Strength::comparison}},
+    {Op::either, "{}\\ \\text{{or}}\\ {}", Strength::either, {Strength::either, Strength::both}},
+    {Op::inverse, "\\text{{not}}\\ {}", Strength::comparison, {Strength::atom}},
+    {Op::absolute, "\\left|{}\\right|"},
+    {Op::exponential, "\\exp{}", Strength::atom, {Strength::enclosed}},
+    {Op::logarithm, "\\ln{}", Strength::atom, {Strength::enclosed}},
+    {Op::root, "\\sqrt{{{}}}"},
+    {Op::sine, "\\sin{}", Strength::atom, {Strength::enclosed}},
+    {Op::cosine, "\\cos{}", Strength::atom, {Strength::enclosed}},
+    {Op::hyperbolic_tangent, "\\tanh{}", Strength::atom, {Strength::enclosed}},
+    {Op::clip, "\\min(\\max({}, {}), {})"},
+    {Op::floor, "\\lfloor {}\\rfloor"},
+    {Op::round, "\\operatorname{{round}}({})"},
+    {Op::choice, "\\begin{{cases}}{1} & \\text{{if }}{0}\\\\ {2} & \\text{{otherwise}}\\end{{cases}}"},
+};
 
 /// A formula with this many characters is written without tall fractions and parentheses, so that TeX can
 /// divide it between its terms.
@@ -68,15 +104,6 @@ class Typesetter {
         const Term t = term(node(i));
         return t.strength < needed ? in_parentheses(t.text) : t.text;
     }
-    Term pair(const Node& n, std::string_view between, Strength strength, Strength right) const {
-        return {of(n.parts[0], strength) + std::string(between) + of(n.parts[1], right), strength};
-    }
-    Term compared(const Node& n, std::string_view sign) const {
-        return pair(n, fmt::format(" {} ", sign), Strength::comparison, Strength::sum);
-    }
-    Term function(const Node& n, std::string_view name) const {
-        return {std::string(name) + in_parentheses(of(n.parts[0], Strength::weakest))};
-    }
     /// The arguments of min and max, which the tree has in pairs.
     std::string arguments(const Node& n) const {
         const Node& first = node(n.parts[0]);
@@ -98,73 +125,17 @@ class Typesetter {
     }
 
     Term term(const Node& n) const {
-        const auto part = [&](int i) { return of(n.parts[i], Strength::weakest); };
-        switch (n.op) {
-            case Op::number:
-                return {number_text(n.value), n.value < 0 ? Strength::sum : Strength::atom};
-            case Op::name:
-                return {typeset_name(formula_.name(n))};
-            case Op::add:
-                return pair(n, " + ", Strength::sum, Strength::product);
-            case Op::subtract:
-                return pair(n, " - ", Strength::sum, Strength::product);
-            case Op::multiply:
-                return multiplied(n);
-            case Op::divide:
-                return divided(n);
-            case Op::power:
-                return {fmt::format("{}^{{{}}}", of(n.parts[0], Strength::atom), part(1)), Strength::power};
-            case Op::negative:
-                return {"-" + of(n.parts[0], Strength::product), Strength::sum};
-            case Op::less:
-                return compared(n, "<");
-            case Op::at_most:
-                return compared(n, "\\le");
-            case Op::more:
-                return compared(n, ">");
-            case Op::at_least:
-                return compared(n, "\\ge");
-            case Op::equal:
-                return compared(n, "=");
-            case Op::unequal:
-                return compared(n, "\\ne");
-            case Op::both:
-                return pair(n, "\\ \\text{and}\\ ", Strength::both, Strength::comparison);
-            case Op::either:
-                return pair(n, "\\ \\text{or}\\ ", Strength::either, Strength::both);
-            case Op::inverse:
-                return {"\\text{not}\\ " + of(n.parts[0], Strength::atom), Strength::comparison};
-            case Op::minimum:
-                return {"\\min(" + arguments(n) + ")"};
-            case Op::maximum:
-                return {"\\max(" + arguments(n) + ")"};
-            case Op::absolute:
-                return {"\\left|" + part(0) + "\\right|"};
-            case Op::exponential:
-                return function(n, "\\exp");
-            case Op::logarithm:
-                return function(n, "\\ln");
-            case Op::root:
-                return {"\\sqrt{" + part(0) + "}"};
-            case Op::sine:
-                return function(n, "\\sin");
-            case Op::cosine:
-                return function(n, "\\cos");
-            case Op::hyperbolic_tangent:
-                return function(n, "\\tanh");
-            case Op::clip:
-                return {fmt::format("\\min(\\max({}, {}), {})", part(0), part(1), part(2))};
-            case Op::floor:
-                return {"\\lfloor " + part(0) + "\\rfloor"};
-            case Op::round:
-                return {"\\operatorname{round}(" + part(0) + ")"};
-            case Op::choice:
-                return {
-                    fmt::format("\\begin{{cases}}{} & \\text{{if }}{}\\\\ {} & \\text{{otherwise}}"
-                                "\\end{{cases}}",
-                                part(1), part(0), part(2))};
-        }
-        return {};
+        if (n.op == Op::number) return {number_text(n.value), n.value < 0 ? Strength::sum : Strength::atom};
+        if (n.op == Op::name) return {typeset_name(formula_.name(n))};
+        if (n.op == Op::multiply) return multiplied(n);
+        if (n.op == Op::divide) return divided(n);
+        if (n.op == Op::minimum) return {"\\min(" + arguments(n) + ")"};
+        if (n.op == Op::maximum) return {"\\max(" + arguments(n) + ")"};
+        const TermForm& form = *std::ranges::find(term_forms, n.op, &TermForm::op);
+        std::array<std::string, 3> parts;
+        for (std::size_t i = 0; i < static_cast<std::size_t>(operands(n.op)); ++i)
+            parts[i] = of(n.parts[i], form.parts[i]);
+        return {fmt::format(fmt::runtime(form.text), parts[0], parts[1], parts[2]), form.strength};
     }
 
     Formula formula_;
