@@ -9,18 +9,12 @@
 #include "core/run/result_files.h"
 
 namespace forage {
-namespace {
 
-/// The number of the nearest start pose, from 1; 0 when there is none.
 int start_number(const std::vector<Pose2>& starts, const Pose2& start) {
     if (starts.empty()) return 0;
     const auto distance = [&](const Pose2& p) { return std::hypot(p.x - start.x, p.y - start.y); };
-    const auto nearest = std::ranges::min_element(
-        starts, [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
-    return static_cast<int>(nearest - starts.begin()) + 1;
+    return static_cast<int>(std::ranges::min_element(starts, {}, distance) - starts.begin()) + 1;
 }
-
-}  // namespace
 
 std::optional<TrialMeasures::Peaks> TrialMeasures::peaks() const {
     if (!discrepancy || patches.size() < 2) return {};

@@ -1,7 +1,6 @@
 // The measures of a robot's trials.
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,6 +10,9 @@
 #include "core/run/trial.h"
 
 namespace forage {
+
+/// The number of the nearest start pose, from 1; 0 when there is none.
+int start_number(const std::vector<Pose2>& starts, const Pose2& start);
 
 /// A patch that came into view in a trial, and how strongly the adaptive layer responded until the next one.
 struct Sighting {

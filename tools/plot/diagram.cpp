@@ -233,6 +233,15 @@ std::vector<Point2> loop(const Node& n, int number) {
             {r, t + 12 + by}};
 }
 
+/// Adds the ends of an edge with these bends.
+void end_at_borders(std::vector<Point2>& points, const Node& from, const Node& to) {
+    const bool straight = points.empty();
+    const Point2 start = from.border(straight ? to.centre() : points.front()),
+                 end = to.border(straight ? from.centre() : points.back());
+    points.insert(points.begin(), start);
+    points.push_back(end);
+}
+
 /// Places the boxes of a sheet, and draws its edges between the pairs of boxes in `arrows`, which has one
 /// pair per edge. Edges between the same boxes are side by side.
 void place_in_layers(DiagramSheet& sheet, const std::vector<std::pair<std::size_t, std::size_t>>& arrows) {
@@ -257,10 +266,7 @@ void place_in_layers(DiagramSheet& sheet, const std::vector<std::pair<std::size_
         const Node &a = sheet.nodes[from], &b = sheet.nodes[to];
         for (const auto& bend : layers.bends[i]) points.push_back(centre(bend));
         const bool straight = points.empty();
-        const Point2 start = a.border(straight ? b.centre() : points.front()),
-                     end = b.border(straight ? a.centre() : points.back());
-        points.insert(points.begin(), start);
-        points.push_back(end);
+        end_at_borders(points, a, b);
         if (straight && number > 0)
             slide(points.front(), a.box, 12 * number), slide(points.back(), b.box, 12 * number);
     }
@@ -328,24 +334,14 @@ DiagramSheet system_sheet(const model::System& system) {
     std::vector<std::pair<std::size_t, std::size_t>> arrows;
     for (const auto& [key, count] : counts) {
         const auto& [from, to, kind, bends] = key;
-        const std::string label = count > 1 ? fmt::format("{}", count) : "";
-        if (!placed) {
-            out.edges.push_back({{}, kind, label});
-            arrows.emplace_back(from, to);
-            continue;
-        }
-        if (!bends.empty()) {
-            std::vector<Point2> points;
-            for (const auto& [x, y] : bends) points.push_back({x * diagram_scale, y * diagram_scale});
-            points.insert(points.begin(), out.nodes[from].border(points.front()));
-            points.push_back(out.nodes[to].border(points.back()));
-            out.edges.push_back({std::move(points), kind, label});
-            continue;
-        }
-        const Point2 a = out.nodes[from].centre(), b = out.nodes[to].centre();
-        out.edges.push_back({{out.nodes[from].border(b), out.nodes[to].border(a)}, kind, label});
+        out.edges.push_back({{}, kind, count > 1 ? fmt::format("{}", count) : ""});
+        arrows.emplace_back(from, to);
+        if (!placed) continue;
+        auto& points = out.edges.back().points;
+        for (const auto& [x, y] : bends) points.push_back({x * diagram_scale, y * diagram_scale});
+        end_at_borders(points, out.nodes[from], out.nodes[to]);
         // beside the arrows of the opposite direction and of other kinds
-        shift(out.edges.back().points, -9 - 12 * static_cast<double>(kind));
+        if (bends.empty()) shift(points, -9 - 12 * static_cast<double>(kind));
     }
     if (!placed) place_in_layers(out, arrows);
     return out;

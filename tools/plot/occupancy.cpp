@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "core/run/trial_recorder.h"
 #include "tools/plot/axes.h"
 #include "tools/plot/world_map.h"
 
@@ -51,16 +52,8 @@ std::vector<Points> mean_paths(const bug::World& world, const std::vector<Path>&
     std::vector<double> counts(starts.size());
     for (const auto& p : paths) {
         if (p.points.size() < 2 || !p.finished) continue;
-        const auto nearest =
-            std::ranges::min_element(starts,
-                                     [&](const auto& a, const auto& b) {
-                                         const auto distance = [&](const Pose2& s) {
-                                             return std::hypot(s.x - p.points[0].x(), s.y - p.points[0].y());
-                                         };
-                                         return distance(a) < distance(b);
-                                     }) -
-            starts.begin();
-        const auto n = static_cast<std::size_t>(nearest);
+        const Pose2 start{p.points[0].x(), p.points[0].y(), 0};
+        const auto n = static_cast<std::size_t>(start_number(starts, start) - 1);
         const Points points = resampled(p.points);
         for (std::size_t i = 0; i < mean_points; ++i) sums[n][i] += points[i];
         ++counts[n];
