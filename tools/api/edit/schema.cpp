@@ -29,30 +29,25 @@ bool in_range(const json& value, const ValueType& type) {
     return std::isfinite(number) && number >= type.low && number <= type.high;
 }
 
+/// The kinds of plain values in words and in TypeScript, in the order of Kind.
+constexpr std::pair<const char*, const char*> plain_kinds[] = {
+    {"any value", "unknown"}, {"true or false", "boolean"}, {"a whole number", "number"},
+    {"a number", "number"},   {"a text", "string"},         {"a path without control characters", "string"}};
+
+const auto& plain(Kind kind) { return plain_kinds[static_cast<std::size_t>(kind)]; }
+
 /// Whether a value has the kind of a type, apart from what is in it.
 bool fits(const json& value, const ValueType& type) {
-    switch (type.kind) {
-        case Kind::any:
-            return true;
-        case Kind::boolean:
-            return value.is_boolean();
-        case Kind::whole:
-            return value.is_number() && in_range(value, type) &&
-                   std::trunc(value.get<double>()) == value.get<double>();
-        case Kind::number:
-            return value.is_number() && in_range(value, type);
-        case Kind::text:
-            return value.is_string();
-        case Kind::path:
-            return value.is_string() && !has_control(value.get<std::string>());
-        case Kind::choice:
-            return value.is_string() && std::ranges::count(type.choices, value.get<std::string>()) > 0;
-        case Kind::list:
-            return value.is_array();
-        case Kind::record:
-            return value.is_object();
-    }
-    return false;
+    const auto kind = type.kind;
+    if (kind == Kind::boolean) return value.is_boolean();
+    if (kind == Kind::list) return value.is_array();
+    if (kind == Kind::record) return value.is_object();
+    if (kind == Kind::whole || kind == Kind::number)
+        return value.is_number() && in_range(value, type) &&
+               (kind == Kind::number || std::trunc(value.get<double>()) == value.get<double>());
+    if (kind == Kind::any) return true;
+    return value.is_string() && (kind != Kind::path || !has_control(value.get<std::string>())) &&
+           (kind != Kind::choice || contains(type.choices, value.get<std::string>()));
 }
 
 std::string range_in_words(const ValueType& type) {
@@ -145,54 +140,23 @@ json checked(json object, const std::vector<Member>& members, const std::string&
 }
 
 std::string in_words(const ValueType& type) {
-    switch (type.kind) {
-        case Kind::any:
-            return "any value";
-        case Kind::boolean:
-            return "true or false";
-        case Kind::whole:
-            return "a whole number" + range_in_words(type);
-        case Kind::number:
-            return "a number" + range_in_words(type);
-        case Kind::text:
-            return "a text";
-        case Kind::path:
-            return "a path without control characters";
-        case Kind::choice:
-            return fmt::format("{} or {}",
-                               fmt::join(type.choices.begin(), std::prev(type.choices.end()), ", "),
-                               type.choices.back());
-        case Kind::list:
-            return fmt::format("a list{}, each element {}",
-                               std::isfinite(type.high) ? fmt::format(" of at most {}", type.high) : "",
-                               in_words(type.element[0]));
-        case Kind::record:
-            break;
-    }
+    if (type.kind == Kind::choice)
+        return fmt::format("{} or {}", fmt::join(type.choices.begin(), std::prev(type.choices.end()), ", "),
+                           type.choices.back());
+    if (type.kind == Kind::list)
+        return fmt::format("a list{}, each element {}",
+                           std::isfinite(type.high) ? fmt::format(" of at most {}", type.high) : "",
+                           in_words(type.element[0]));
+    if (type.kind != Kind::record) return plain(type.kind).first + range_in_words(type);
     return type.members.empty() ? "an object"
                                 : fmt::format("an object with {}", fmt::join(names_of(type.members), ", "));
 }
 
 std::string in_typescript(const ValueType& type) {
     if (!type.typescript_name.empty()) return type.typescript_name;
-    switch (type.kind) {
-        case Kind::any:
-            return "unknown";
-        case Kind::boolean:
-            return "boolean";
-        case Kind::whole:
-        case Kind::number:
-            return "number";
-        case Kind::text:
-        case Kind::path:
-            return "string";
-        case Kind::choice:
-            return fmt::format("'{}'", fmt::join(type.choices, "' | '"));
-        case Kind::list:
-            return in_typescript(type.element[0]) + "[]";
-        case Kind::record:
-            break;
-    }
+    if (type.kind == Kind::choice) return fmt::format("'{}'", fmt::join(type.choices, "' | '"));
+    if (type.kind == Kind::list) return in_typescript(type.element[0]) + "[]";
+    if (type.kind != Kind::record) return plain(type.kind).second;
     if (type.members.empty()) return "object";
     const auto members = collected(type.members, [](const Member& m) {
         return fmt::format("{}{}", m.name, m.required() ? ": " : "?: ") + in_typescript(m.type) +
