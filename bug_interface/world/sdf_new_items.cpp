@@ -28,18 +28,19 @@ std::string sphere(double radius) {
 }
 std::string plane() { return "<plane><normal>0 0 1</normal><size>20 20</size></plane>"; }
 
-/// A <collision>, or a <visual> of a colour, at the height `z` in its link.
-std::string collision(const std::string& geometry, double z = 0, const std::string& name = "collision") {
+/// A geometry at the height `z` in its link.
+std::string raised(const std::string& geometry, double z) {
     const auto pose = z == 0 ? std::string() : fmt::format("<pose>0 0 {} 0 0 0</pose>", number_text(z));
-    return fmt::format("<collision name=\"{}\">{}<geometry>{}</geometry></collision>", name, pose, geometry);
+    return fmt::format("{}<geometry>{}</geometry>", pose, geometry);
+}
+std::string collision(const std::string& geometry, double z = 0, const std::string& name = "collision") {
+    return fmt::format("<collision name=\"{}\">{}</collision>", name, raised(geometry, z));
 }
 std::string visual(const std::string& geometry, const std::string& color, double z = 0) {
-    const auto pose = z == 0 ? std::string() : fmt::format("<pose>0 0 {} 0 0 0</pose>", number_text(z));
     return fmt::format(
         "<visual "
-        "name=\"visual\">{}<geometry>{}</geometry><material><ambient>{}</ambient><diffuse>{}</diffuse>"
-        "</material></visual>",
-        pose, geometry, colour_text(color), colour_text(color));
+        "name=\"visual\">{0}<material><ambient>{1}</ambient><diffuse>{1}</diffuse></material></visual>",
+        raised(geometry, z), colour_text(color));
 }
 
 std::string model(const NewItem& item, const std::string& more, double z, const std::string& link) {
@@ -117,43 +118,36 @@ std::vector<ItemKind> kinds_of_items() {
 
 std::string new_item_text(const NewItem& item, bool has_floor, ModelTexts& models) {
     const auto& kind = item.kind;
-    const double width = item.width.value_or(1), radius = item.radius.value_or(0.2);
     const auto color = [&](const char* usual) { return item.color.empty() ? usual : item.color; };
+    const auto width = [&](double usual) { return item.width.value_or(usual); };
     const auto depth = [&](double usual) { return item.depth.value_or(usual); };
+    const auto radius = [&](double usual) { return item.radius.value_or(usual); };
     constexpr const char* dark = "#303030";  // stands out from grey floors
-    if (kind == "wall") return obstacle(item, {box(width, depth(0.2), 0.25), 0.125}, color(dark));
-    if (kind == "pillar") return obstacle(item, {cylinder(radius, 0.25), 0.125}, color(dark));
+    if (kind == "wall") return obstacle(item, {box(width(1), depth(0.2), 0.25), 0.125}, color(dark));
+    if (kind == "pillar") return obstacle(item, {cylinder(radius(0.2), 0.25), 0.125}, color(dark));
     // Paint lies just above the floor.
-    if (kind == "patch") return paint(item, {box(width, depth(1), 0.002), 0.002}, color("#ff0000"));
-    if (kind == "disc")
-        return paint(item, {cylinder(item.radius.value_or(0.5), 0.002), 0.002}, color("#00ff00"));
-    if (kind == "ball") {
-        const double r = item.radius.value_or(0.1);
-        return movable(item, {sphere(r), r}, color("#0000ff"), "0.05");
-    }
+    if (kind == "patch") return paint(item, {box(width(1), depth(1), 0.002), 0.002}, color("#ff0000"));
+    if (kind == "disc") return paint(item, {cylinder(radius(0.5), 0.002), 0.002}, color("#00ff00"));
+    if (kind == "ball") return movable(item, {sphere(radius(0.1)), radius(0.1)}, color("#0000ff"), "0.05");
     if (kind == "crate")
-        return movable(item, {box(item.width.value_or(0.3), depth(0.3), 0.2), 0.1}, color("#ff8000"), "0.5");
+        return movable(item, {box(width(0.3), depth(0.3), 0.2), 0.1}, color("#ff8000"), "0.5");
     if (kind == "resource")
-        return movable(item, {sphere(item.radius.value_or(0.08)), item.radius.value_or(0.08)},
-                       color("#0000ff"), "0.01",
+        return movable(item, {sphere(radius(0.08)), radius(0.08)}, color("#0000ff"), "0.01",
                        "<plugin name=\"resource\" filename=\"libtarget_plugin.so\"/>");
-    if (kind == "light") {  // above proximity sensors and robots; the camera sees a disc
-        const double r = item.radius.value_or(0.25);
+    if (kind == "light")  // above proximity sensors and robots; the camera sees a disc
         return fixed(item, 0,
-                     collision(cylinder(r, 0.25), 0.35) + visual(cylinder(r, 0.01), color("#ffffff")));
-    }
-    if (kind == "goal") {
-        const double r = item.radius.value_or(0.3);
+                     collision(cylinder(radius(0.25), 0.25), 0.35) +
+                         visual(cylinder(radius(0.25), 0.01), color("#ffffff")));
+    if (kind == "goal")
         return fixed(item, 0,
-                     collision(cylinder(r, 0.5), 0.5) + visual(cylinder(r, 0.6), color("#00ff00"), 0.3));
-    }
-    if (kind == "home")
-        return paint(item, {cylinder(item.radius.value_or(3), 0.0001), 0.002}, color("#000000"));
-    if (kind == "start") return paint(item, {cylinder(radius, 0.0001), 0.002}, color("#b3b3b3"));
+                     collision(cylinder(radius(0.3), 0.5), 0.5) +
+                         visual(cylinder(radius(0.3), 0.6), color("#00ff00"), 0.3));
+    if (kind == "home") return paint(item, {cylinder(radius(3), 0.0001), 0.002}, color("#000000"));
+    if (kind == "start") return paint(item, {cylinder(radius(0.2), 0.0001), 0.002}, color("#b3b3b3"));
     if (kind == "floor")  // the bounds are the last collision, below everything
         return fixed(item, 0,
                      collision(plane(), 0, "floor") + (has_floor ? "" : visual(plane(), color("#b3b3b3"))) +
-                         collision(box(item.width.value_or(5), depth(5), 0.02), -1, "bounds"));
+                         collision(box(width(5), depth(5), 0.02), -1, "bounds"));
     if (kind == "robot") return included(item, item.uri.empty() ? robot_uri(models) : item.uri);
     if (kind == "model") return included(item, item.uri.empty() ? model_uri(models) : item.uri);
     if (kind == "sun")

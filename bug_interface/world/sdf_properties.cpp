@@ -47,14 +47,11 @@ std::vector<ValueRow> rows_of(const Entry& e) {
     return out;
 }
 
-/// A number as a form shows it.
-std::string shown(double value, double unit = 1e-6) {
-    return fmt::format("{:.10g}", std::round(value / unit) * unit + 0.0);
-}
-
+/// A number as a form shows it, in whole `unit`s.
 ItemProperty number(std::string_view name, std::string_view label, double value,
-                    std::optional<double> low = {}, std::optional<double> high = {}) {
-    return {std::string(name), std::string(label), "number", shown(value), low, high, {}};
+                    std::optional<double> low = {}, std::optional<double> high = {}, double unit = 1e-6) {
+    const auto shown = fmt::format("{:.10g}", std::round(value / unit) * unit + 0.0);
+    return {std::string(name), std::string(label), "number", shown, low, high, {}};
 }
 
 /// All shapes of a model; of a floor, those that bound it.
@@ -240,9 +237,7 @@ std::vector<ItemProperty> properties_of(std::string_view text, const Entry& e, c
         out.push_back(number("x", "x, m", pose.x, -1000, 1000));
         out.push_back(number("y", "y, m", pose.y, -1000, 1000));
         if (e.is_model()) {
-            auto heading = number("heading", "Heading, °", 0);
-            heading.value = shown(pose.yaw / degree, 0.01);
-            out.push_back(std::move(heading));
+            out.push_back(number("heading", "Heading, °", pose.yaw / degree, {}, {}, 0.01));
             out.push_back(number("z", "Above the floor, m", pose.z, -1000, 1000));
         }
     }
@@ -252,13 +247,8 @@ std::vector<ItemProperty> properties_of(std::string_view text, const Entry& e, c
     }
     if (e.body.element && e.body.element->name == "light") {
         const auto sun = sun_of(e.body);
-        for (auto [name, label, value, low, high] :
-             {std::tuple{"azimuth", "Comes from, °", sun.azimuth, -180.0, 180.0},
-              {"elevation", "Elevation, °", sun.elevation, 0.0, 90.0}}) {
-            auto p = number(name, label, 0, low, high);
-            p.value = shown(value, 0.01);
-            out.push_back(std::move(p));
-        }
+        out.push_back(number("azimuth", "Comes from, °", sun.azimuth, -180, 180, 0.01));
+        out.push_back(number("elevation", "Elevation, °", sun.elevation, 0, 90, 0.01));
     } else if (e.is_model() && e.body.element) {
         add_model_properties(e, out);
     }
