@@ -48,4 +48,11 @@ inline void throw_errors(Diagnostics diagnostics) {
     if (diagnostics.failed()) throw InputError(std::move(diagnostics));
 }
 
+/// `result`, unless there is an error among the diagnostics with which it was made: then throws InputError.
+template <class T>
+T checked(const Diagnostics& diagnostics, T result) {
+    throw_errors(diagnostics);
+    return result;
+}
+
 }  // namespace forage

@@ -207,8 +207,7 @@ EarlyEnd Run::advance(const RunLength& wanted_length, const AfterCycle& after_cy
     Diagnostics diagnostics;
     RunLength length = wanted_length;
     length.in_code = true;
-    const StopCondition stop = StopCondition::make(length, *this, diagnostics);
-    throw_errors(diagnostics);
+    const StopCondition stop = checked(diagnostics, StopCondition::make(length, *this, diagnostics));
     engine::Demand wanted;
     stop.declare(wanted);
     require(wanted, fmt::format("what '{}' reads", length.until.text));
@@ -226,8 +225,7 @@ EarlyEnd Run::advance(const RunLength& wanted_length, const AfterCycle& after_cy
 
 std::vector<double> Run::read(std::string_view text) {
     Diagnostics diagnostics;
-    const auto source = observe::find_source(layout(), text, "read", diagnostics);
-    throw_errors(diagnostics);
+    const auto source = checked(diagnostics, observe::find_source(layout(), text, "read", diagnostics));
     start();
     engine::Demand wanted;
     source->declare(wanted);
@@ -239,8 +237,7 @@ std::vector<double> Run::read(std::string_view text) {
 
 void Run::write(std::string_view text, std::span<const double> values) {
     Diagnostics diagnostics;
-    const auto column = observe::find_column(layout(), text, "write", diagnostics);
-    throw_errors(diagnostics);
+    const auto column = checked(diagnostics, observe::find_column(layout(), text, "write", diagnostics));
     if (column->state < 0)
         throw InputError(fmt::format("'{}' is an input, which cannot be overwritten", text));
     start();
@@ -280,8 +277,7 @@ ParameterValue Run::parameter(std::string_view name) {
 
 MemoryRecorder& Run::record(std::string_view text, std::uint64_t every) {
     Diagnostics diagnostics;
-    auto source = observe::find_source(layout(), text, "record", diagnostics);
-    throw_errors(diagnostics);
+    auto source = checked(diagnostics, observe::find_source(layout(), text, "record", diagnostics));
     return add(std::make_unique<MemoryRecorder>(std::move(*source), every));
 }
 

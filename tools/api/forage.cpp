@@ -7,7 +7,6 @@
 #include "core/run/experiment/tables.h"
 #include "core/run/path_recorder.h"
 #include "core/run/result_names.h"
-#include "core/run/run_json.h"
 #include "tools/api/experiment/experiment.h"
 #include "tools/api/experiment/results.h"
 #include "tools/api/open/prepare.h"
@@ -94,8 +93,7 @@ Run open(const std::string& system, const std::string& text, const OpenOptions& 
     if (resumed_files) input.resumed_files = *resumed_files;
     Diagnostics diagnostics;
     const Sources sources = read_sources(input, diagnostics);
-    auto loaded = assemble(sources, input, diagnostics);
-    throw_errors(diagnostics);
+    auto loaded = checked(diagnostics, assemble(sources, input, diagnostics));
     auto types = program_types_of(loaded->system);
     Run out = make_run(std::move(loaded->system), std::move(loaded->registry), std::move(loaded->world),
                        options, diagnostics);

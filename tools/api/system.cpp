@@ -107,8 +107,7 @@ void save_process(const SystemFile& file, const std::string& id, const std::stri
 
 std::string import_process(SystemFile& file, const std::string& path) {
     Diagnostics diagnostics;
-    auto process = xml::read_process(path, diagnostics);
-    throw_errors(diagnostics);
+    auto process = checked(diagnostics, xml::read_process(path, diagnostics));
     return model::import_process(file.model, std::move(*process));
 }
 

@@ -83,10 +83,9 @@ struct PythonExperiment {
 
     /// For one part, in a process that shares the directory with others.
     PreparedExperiment prepare(const std::string& directory) const {
-        return *checked([&](Diagnostics& found) {
-            return std::visit([&](const auto& w) { return prepare_part(w, directory, plugins, found); },
-                              what);
-        });
+        Diagnostics found;
+        const auto prepare = [&](const auto& w) { return prepare_part(w, directory, plugins, found); };
+        return *checked(found, std::visit(prepare, what));
     }
 };
 

@@ -19,14 +19,7 @@ constexpr const char* input_names[] = {"excIn", "inhIn", "modIn"};
 
 /// A read-only array of the numbers of `column`: a copy of them, or a view when it has an owner of them.
 py::object column_array(const ConstColumn& column, const GroupShape& shape, const py::handle& owner = {}) {
-    py::array_t<double> out(shape_of(shape), column.data(), owner);
-    out.attr("flags").attr("writeable") = false;
-    return out;
-}
-
-/// What keeps a run in memory.
-py::capsule keeper(const std::shared_ptr<Run>& run) {
-    return {new std::shared_ptr<Run>(run), [](void* p) { delete static_cast<std::shared_ptr<Run>*>(p); }};
+    return read_only(py::array_t<double>(shape_of(shape), column.data(), owner));
 }
 
 py::object state(const PythonGroup& group, int number) {
@@ -129,9 +122,9 @@ std::string repr(const PythonManipulation& self) {
     if (!self.manipulation || self.run->closed()) return "<forage.Manipulation, removed>";
     if (const auto why = self.run->obstacle(); !why.empty())
         return fmt::format("<forage.Manipulation of a run that is {}>", why);
-    static constexpr const char* modes[] = {"clamp", "add", "multiply"};
     const auto& settings = self.manipulation->settings();
-    return fmt::format("<forage.Manipulation: {} '{}', {} pattern{}>", modes[static_cast<int>(settings.mode)],
+    return fmt::format("<forage.Manipulation: {} '{}', {} pattern{}>",
+                       model::ManipulationSpec::name_of(settings.mode),
                        self.run->use().layout().groups[static_cast<std::size_t>(settings.group)].path,
                        settings.patterns.size(), settings.patterns.size() == 1 ? "" : "s");
 }
@@ -139,9 +132,9 @@ std::string repr(const PythonManipulation& self) {
 }  // namespace
 
 PythonGroup find_group(PythonRun& run, const std::string& path) {
-    const auto column = checked([&](Diagnostics& mistakes) {
-        return observe::find_column(run.use().layout(), path, "run[...]", mistakes);
-    });
+    Diagnostics mistakes;
+    const auto column =
+        checked(mistakes, observe::find_column(run.use().layout(), path, "run[...]", mistakes));
     if (column->connection >= 0)
         throw InputError(fmt::format("'{}' names a connection, not a group", path),
                          "read its synapses with run.read() or run.probe()");

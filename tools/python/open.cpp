@@ -143,9 +143,8 @@ bool run_until(PythonRun& self, const std::string& condition, Count cycles, Seco
 }
 
 py::array read(PythonRun& self, const std::string& source) {
-    const auto found = checked([&](Diagnostics& mistakes) {
-        return observe::find_source(self.use().layout(), source, "read", mistakes);
-    });
+    Diagnostics mistakes;
+    const auto found = checked(mistakes, observe::find_source(self.use().layout(), source, "read", mistakes));
     return array_of(self.use().read(source), shape_of(found->what()));
 }
 

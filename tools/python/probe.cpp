@@ -11,10 +11,6 @@ namespace {
 
 using namespace py::literals;
 
-py::array cycles_array(std::vector<std::uint64_t> cycles) {
-    return py::array_t<std::uint64_t>(static_cast<py::ssize_t>(cycles.size()), cycles.data());
-}
-
 py::array rows_array(std::vector<double> numbers, std::size_t rows, const observe::Recorded& what) {
     auto shape = shape_of(what);
     shape.insert(shape.begin(), static_cast<py::ssize_t>(rows));
@@ -28,12 +24,11 @@ py::object recording(const PythonProbe& self, MemoryRecorder::Taken taken) {
     for (std::size_t i = 0; i < what.size(); ++i) columns.push_back(what.cell_name(i));
     const auto rows = taken.cycles.size();
     return py::module_::import("forage._recording")
-        .attr("Recording")("source"_a = what.name, "label"_a = what.label,
-                           "cycles"_a = cycles_array(std::move(taken.cycles)),
-                           "data"_a = rows_array(std::move(taken.numbers), rows, what), "columns"_a = columns,
-                           "first"_a = py::make_tuple(what.cells.x, what.cells.y),
-                           "every"_a = self.use().every(),
-                           "seconds_per_cycle"_a = self.owner->seconds_per_cycle());
+        .attr("Recording")(
+            "source"_a = what.name, "label"_a = what.label, "cycles"_a = array_of(taken.cycles),
+            "data"_a = rows_array(std::move(taken.numbers), rows, what), "columns"_a = columns,
+            "first"_a = py::make_tuple(what.cells.x, what.cells.y), "every"_a = self.use().every(),
+            "seconds_per_cycle"_a = self.owner->seconds_per_cycle());
 }
 
 py::object copied(const PythonProbe& self) {
@@ -45,12 +40,8 @@ py::object copied(const PythonProbe& self) {
 py::array view(const PythonProbe& self) {
     auto shape = shape_of(self.use().what());
     shape.insert(shape.begin(), static_cast<py::ssize_t>(self.use().cycles().size()));
-    using Memory = std::shared_ptr<const std::vector<double>>;
-    auto* memory = new Memory(self.use().numbers());
-    const py::capsule keeper(memory, [](void* p) { delete static_cast<Memory*>(p); });
-    py::array_t<double> out(shape, (*memory)->data(), keeper);
-    out.attr("flags").attr("writeable") = false;
-    return out;
+    const auto numbers = self.use().numbers();
+    return read_only(py::array_t<double>(shape, numbers->data(), keeper(numbers)));
 }
 
 /// A method of Recording, called with what the probe holds.
@@ -105,7 +96,7 @@ It can be read while the run lasts and after it is closed. NumPy takes it as the
             "every", [](const PythonProbe& p) { return p.use().every(); },
             "The number of cycles from one row to the next.")
         .def_property_readonly(
-            "cycles", [](const PythonProbe& p) { return cycles_array(p.use().cycles()); },
+            "cycles", [](const PythonProbe& p) { return array_of(p.use().cycles()); },
             "The numbers of the recorded cycles: an array of shape (rows,).")
         .def_property_readonly(
             "data", &view,

@@ -1,9 +1,6 @@
 // What the files of the Python package share.
 #pragma once
 
-#include <string>
-#include <utility>
-
 #include <forage/forage.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

@@ -188,8 +188,7 @@ bool PythonRun::advance(const RunLength& length, const py::object& progress, boo
     Diagnostics mistakes;
     RunLength whole = length;  // `left` is shorter after a trial that was truncated
     whole.in_code = true;
-    const auto stop = StopCondition::make(whole, *run_, mistakes);
-    throw_errors(mistakes);
+    const auto stop = checked(mistakes, StopCondition::make(whole, *run_, mistakes));
     check_demand(stop.cycles().value_or(0));
     const auto origin = StopCondition::begin(*run_);
     const auto after_cycle = [&](const StopCondition&, const StopOrigin&) {

@@ -5,7 +5,6 @@
 #include <cstring>
 #include <new>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 

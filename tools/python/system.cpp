@@ -7,7 +7,6 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "core/base/output_files.h"
 #include "tools/python/values.h"
 #include "tools/python/wiring.h"
 
@@ -131,14 +130,6 @@ py::object edit_the_file(const Path& path, const py::object& operations, const s
 
 SystemProcess import_file(PythonSystem& self, const Path& path) {
     return {{self.shared_from_this(), import_process(self, path.string())}};
-}
-
-/// All items of one kind, as a tuple.
-template <class Item, class Models>
-py::tuple items(PythonSystem& self, const Models& models) {
-    py::list out;
-    for (const auto& m : models) out.append(Item{{self.shared_from_this(), m.id}});
-    return py::tuple(out);
 }
 
 py::tuple all_groups(PythonSystem& self) {
@@ -267,7 +258,10 @@ Raises InputError for mistakes in the system, and ValueError for another format.
             "path", &PythonSystem::path,
             "The path of its file, which need not exist. Relative paths in the system start at its folder.")
         .def_property_readonly(
-            "processes", [](PythonSystem& self) { return items<SystemProcess>(self, self.model.processes); },
+            "processes",
+            [](PythonSystem& self) {
+                return items<SystemProcess>(self.shared_from_this(), self.model.processes);
+            },
             "The processes, in the order of the file.")
         .def_property_readonly(
             "constants",
@@ -279,7 +273,9 @@ Raises InputError for mistakes in the system, and ValueError for another format.
                                "The groups of all processes, in the order of the file.")
         .def_property_readonly(
             "connections",
-            [](PythonSystem& self) { return items<SystemConnection>(self, self.model.connections); },
+            [](PythonSystem& self) {
+                return items<SystemConnection>(self.shared_from_this(), self.model.connections);
+            },
             "The connections, in the order of the file.");
     system
         .def("add_process", &add_process, "name"_a, py::kw_only(), "id"_a = "",

@@ -62,6 +62,14 @@ struct SystemConstants : SystemItem {
     std::vector<std::string> names() const;
 };
 
+/// Items of one kind, as a tuple.
+template <class Item, class Models>
+py::tuple items(const std::shared_ptr<PythonSystem>& system, const Models& models) {
+    py::list out;
+    for (const auto& m : models) out.append(Item{{system, m.id}});
+    return py::tuple(out);
+}
+
 /// Adds a property to a class that shows a part of a model: one of the model's members.
 template <class Class, class Model, class T>
 void add_member(Class& type, const char* name, T Model::*member, const char* doc) {

@@ -32,17 +32,12 @@ std::string path_of(const SystemGroup& self) {
 
 /// The parameters of the item's type; null when it has none. Throws InputError when the item was removed.
 const std::vector<Parameter>* declared(const SystemParameters& self) {
-    const auto parameters = [&](const model::TypeUse& use) {
-        return model::parameters_of(*self.system->types, self.owner, use.type);
-    };
-    const SystemItem item{self.system, self.id};
-    if (self.owner == Owner::group) return parameters(SystemGroup{item}.use().neuron);
-    if (self.owner == Owner::process) {
-        const auto& module = SystemProcess{item}.use().module;
-        return module ? parameters(*module) : nullptr;
-    }
-    const auto& synapse = SystemConnection{item}.use().synapse;
-    return synapse ? parameters(*synapse) : nullptr;
+    const SystemItem item{self.system, self.id};  // use() throws when it was removed
+    if (self.owner == Owner::group) SystemGroup{item}.use();
+    if (self.owner == Owner::process) SystemProcess{item}.use();
+    if (self.owner == Owner::connection) SystemConnection{item}.use();
+    const auto* use = model::find_use(self.system->model, self.id);
+    return use ? model::parameters_of(*self.system->types, self.owner, use->type) : nullptr;
 }
 
 /// The item as assignments name it. Throws InputError when it was removed.
@@ -52,10 +47,10 @@ std::string where(const SystemParameters& self) {
 }
 
 model::Assignment find(const SystemParameters& self, const std::string& name) {
-    return *checked([&](Diagnostics& found) {
-        return model::find_parameter(self.system->model, *self.system->types,
-                                     fmt::format("{}.{}", where(self), name), "parameter", found);
-    });
+    Diagnostics found;
+    const auto full_name = fmt::format("{}.{}", where(self), name);
+    return *checked(
+        found, model::find_parameter(self.system->model, *self.system->types, full_name, "parameter", found));
 }
 
 void unset(const SystemParameters& self, const std::string& name) {
@@ -138,12 +133,6 @@ SystemGroup add_group(const SystemProcess& self, const std::string& name, int wi
     return out;
 }
 
-py::tuple groups(const SystemProcess& self) {
-    py::list out;
-    for (const auto& g : self.use().groups) out.append(SystemGroup{{self.system, g.id}});
-    return py::tuple(out);
-}
-
 void save_as(const SystemProcess& self, const std::filesystem::path& path) {
     self.use();
     writing([&] { save_process(*self.system, self.id, path.string()); });
@@ -170,12 +159,6 @@ SynapseTable synapses_of(const SystemConnection& self, std::uint64_t seed) {
     return synapses(file, self.id, seed);
 }
 
-/// The numbers as an array of one dimension, which copies them.
-template <class T>
-py::array numbers(const std::vector<T>& values) {
-    return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
-}
-
 py::array synapse_table(const SystemConnection& self, std::uint64_t seed) {
     const SynapseTable all = synapses_of(self, seed);
     py::list fields;
@@ -186,9 +169,9 @@ py::array synapse_table(const SystemConnection& self, std::uint64_t seed) {
                                      {"strength", "f8"}})
         fields.append(py::make_tuple(name, type));
     py::array out = py::module_::import("numpy").attr("empty")(all.source.size(), "dtype"_a = fields);
-    out["source"] = numbers(all.source), out["target"] = numbers(all.target);
-    out["distance"] = numbers(all.distance), out["delay"] = numbers(all.delay);
-    out["strength"] = numbers(all.strength);
+    out["source"] = array_of(all.source), out["target"] = array_of(all.target);
+    out["distance"] = array_of(all.distance), out["delay"] = array_of(all.delay);
+    out["strength"] = array_of(all.strength);
     return out;
 }
 
@@ -199,9 +182,9 @@ py::object matrix(const SystemConnection& self, std::uint64_t seed) {
         return model::shape(SystemGroup{{self.system, id}}.use().topology).cells;
     };
     return py::module_::import("scipy.sparse")
-        .attr("csr_matrix")(
-            py::make_tuple(numbers(all.strength), py::make_tuple(numbers(all.target), numbers(all.source))),
-            "shape"_a = py::make_tuple(cells(connection.target), cells(connection.source)));
+        .attr("csr_matrix")(py::make_tuple(array_of(all.strength),
+                                           py::make_tuple(array_of(all.target), array_of(all.source))),
+                            "shape"_a = py::make_tuple(cells(connection.target), cells(connection.source)));
 }
 
 py::dict feedback(const SystemConnection& self) {
@@ -300,7 +283,10 @@ void add_processes(py::handle scope) {
     };
     ports("inputs", &model::ModuleUse::inputs, "The groups that the module reads, by port.");
     ports("outputs", &model::ModuleUse::outputs, "The groups that the module writes, by port.");
-    type.def_property_readonly("groups", &groups, "The groups, in the order of the file.")
+    type.def_property_readonly(
+            "groups",
+            [](const SystemProcess& self) { return items<SystemGroup>(self.system, self.use().groups); },
+            "The groups, in the order of the file.")
         .def_property_readonly(
             "constants", [](const SystemProcess& self) { return SystemConstants{self}; },
             "The constants of the process, by name; they hide those of the system.")
@@ -535,8 +521,8 @@ SystemGroup group_of(PythonSystem& system, const py::object& group) {
 }
 
 py::object item_of(PythonSystem& system, const std::string& name) {
-    const auto found = checked(
-        [&](Diagnostics& mistakes) { return model::find_item(system.model, name, "system", mistakes); });
+    Diagnostics mistakes;
+    const auto found = checked(mistakes, model::find_item(system.model, name, "system", mistakes));
     const SystemItem item{system.shared_from_this(), found->id};
     if (found->owner == Owner::group) return py::cast(SystemGroup{item});
     if (found->owner == Owner::process) return py::cast(SystemProcess{item});

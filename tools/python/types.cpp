@@ -69,11 +69,6 @@ DoubleArray copy_column(const AnyColumn& column) {
     return DoubleArray(column.size(), column.data());
 }
 
-DoubleArray read_only(DoubleArray array) {
-    array.attr("flags").attr("writeable") = false;
-    return array;
-}
-
 /// Copies what update() left in an array, after a check.
 void copy_back(const DoubleArray& array, Column column, const std::string& name) {
     if (array.size() != column.size())

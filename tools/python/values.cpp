@@ -72,9 +72,8 @@ std::vector<py::ssize_t> shape_of(const observe::Recorded& what) {
 }
 
 py::array array_of(std::vector<double> values, const std::vector<py::ssize_t>& shape) {
-    auto* kept = new std::vector<double>(std::move(values));
-    const py::capsule keeper(kept, [](void* p) { delete static_cast<std::vector<double>*>(p); });
-    return py::array_t<double>(shape, kept->data(), keeper);
+    const double* numbers = values.data();
+    return py::array_t<double>(shape, numbers, keeper(std::move(values)));
 }
 
 py::array_t<double, py::array::c_style | py::array::forcecast> numeric_array(const py::object& values,

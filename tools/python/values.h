@@ -12,15 +12,6 @@
 
 namespace forage::python {
 
-/// The result of `call`, which is called with the Diagnostics for what it finds. Throws InputError for errors
-/// among them.
-template <class Call>
-auto checked(Call call) {
-    Diagnostics found;
-    auto out = call(found);
-    throw_errors(found);
-    return out;
-}
 /// The result of `call`, which is called with a pointer to the Diagnostics for warnings. Issues them as
 /// forage.InputWarning.
 template <class Call>
@@ -117,6 +108,23 @@ std::vector<py::ssize_t> shape_of(const GroupShape& group);
 /// The shape of a row of a recording: (rows, columns), (cells,) of a sparse group, () of a mean.
 std::vector<py::ssize_t> shape_of(const observe::Recorded& what);
 
+/// What keeps a value in memory for arrays that show it.
+template <class T>
+py::capsule keeper(T value) {
+    return {new T(std::move(value)), [](void* p) { delete static_cast<T*>(p); }};
+}
+/// The array, to which nobody can write from now on.
+template <class Array>
+Array read_only(Array array) {
+    array.attr("flags").attr("writeable") = false;
+    return array;
+}
+
+/// A copy of the numbers as an array of one dimension.
+template <class T>
+py::array array_of(const std::vector<T>& values) {
+    return py::array_t<T>(static_cast<py::ssize_t>(values.size()), values.data());
+}
 /// An array of numbers that takes over `values`.
 py::array array_of(std::vector<double> values, const std::vector<py::ssize_t>& shape);
 /// One number per cell from `values`: a number for all of them, or an array of the group's shape. `what`

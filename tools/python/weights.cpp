@@ -25,10 +25,8 @@ int cells(const PythonConnection& self, int group) {
 
 py::array weight(const PythonConnection& self) {
     const auto& c = about(self);
-    auto out =
-        array_of(weights(self.run->use(), self.number), {cells(self, c.target), cells(self, c.source)});
-    out.attr("flags").attr("writeable") = false;
-    return out;
+    return read_only(
+        array_of(weights(self.run->use(), self.number), {cells(self, c.target), cells(self, c.source)}));
 }
 
 void set_weight(const PythonConnection& self, const py::object& values) {

@@ -97,10 +97,9 @@ std::shared_ptr<const AgentTask> AgentTask::read(AgentOptions options) {
     }
     throw_errors(diagnostics);
     complete_agents(options, *out->sources_.world);
-    if (!brain) {
-        out->sources_.system = agent_system(collected(options.agents, &Agent::body), diagnostics);
-        throw_errors(diagnostics);
-    }
+    if (!brain)
+        out->sources_.system =
+            checked(diagnostics, agent_system(collected(options.agents, &Agent::body), diagnostics));
     out->options_ = std::move(options);
     return out;
 }
@@ -109,8 +108,7 @@ Run AgentTask::open(std::uint64_t seed) const {
     RunInput input = options_.input;
     input.seed = seed;
     Diagnostics diagnostics;
-    auto loaded = assemble(sources_, input, diagnostics);
-    throw_errors(diagnostics);
+    auto loaded = checked(diagnostics, assemble(sources_, input, diagnostics));
     OpenOptions open{.seed = seed,
                      .observe = std::vector<std::string>(),
                      .overwrite = std::vector<std::string>(),

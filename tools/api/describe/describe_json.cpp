@@ -278,8 +278,7 @@ json describe_trial(const Trial& trial, double seconds_per_cycle) {
 
 json describe_parameters(Run& run, std::string_view item) {
     Diagnostics diagnostics;
-    auto found = model::find_item(run.system(), item, "parameters", diagnostics);
-    throw_errors(diagnostics);
+    auto found = checked(diagnostics, model::find_item(run.system(), item, "parameters", diagnostics));
     const auto& system = run.system();
     const auto path = model::name_of(system, found->id);
     const auto* use = model::find_use(system, found->id);

@@ -89,8 +89,7 @@ json edit_system(const std::string& path, const json& operations, const std::str
                  const std::vector<std::string>& plugins, Diagnostics& warnings) {
     auto document = Document::open(path);
     Diagnostics diagnostics;
-    const auto types = known_types(plugins_to_read(plugins, path, diagnostics));
-    throw_errors(diagnostics);
+    const auto types = checked(diagnostics, known_types(plugins_to_read(plugins, path, diagnostics)));
     const auto before = document.problems(types);
     json made = json::array();
     editing::EditFiles files(path);

@@ -13,7 +13,6 @@
 #include "core/run/input_error.h"
 #include "core/types/registry.h"
 #include "core/xml/reader.h"
-#include "core/xml/writer.h"
 #include "tools/api/edit/forms.h"
 #include "tools/api/edit/part_operations.h"
 #include "tools/api/edit/robots.h"
@@ -48,22 +47,18 @@ struct SystemEdit {
         return static_cast<InputKind>(it - input_kind_names.begin());
     }
 
-    void place_new(const std::string& made) {
+    /// The id `made` of a new item, which the operation may place.
+    json placed(const std::string& made) {
         const auto *x = member("x"), *y = member("y");
         if ((x == nullptr) != (y == nullptr))
             throw InputError("'x' and 'y' belong together", "give both, or none");
         if (x) model::place(system, made, whole_from(*x), whole_from(*y));
-    }
-    json add_process() {
-        const auto made = model::add_process(system, text("name"), text("id"));
-        place_new(made);
         return made;
     }
+    json add_process() { return placed(model::add_process(system, text("name"), text("id"))); }
     json add_group() {
-        const auto made = model::add_group(system, text("process"), text("name"), o.at("width"),
-                                           o.at("height"), text("neuron"), text("id"));
-        place_new(made);
-        return made;
+        return placed(model::add_group(system, text("process"), text("name"), o.at("width"), o.at("height"),
+                                       text("neuron"), text("id")));
     }
     LineChange line_change() const {
         LineChange out;
@@ -153,11 +148,7 @@ struct SystemEdit {
         if (value) written = value->is_string() ? value->get<std::string>() : value->dump();
         return set_parameter(system, id(), text("name"), written), nullptr;
     }
-    json add_robot() {
-        const auto made = editing::add_robot(system, registry, text("name"), text("id"));
-        place_new(made);
-        return made;
-    }
+    json add_robot() { return placed(editing::add_robot(system, registry, text("name"), text("id"))); }
     json port_groups() {
         return add_port_groups(system, registry, id(), o.at("ports").get<std::vector<std::string>>());
     }
@@ -192,14 +183,11 @@ struct SystemEdit {
     }
     json import() {
         Diagnostics diagnostics;
-        auto file = xml::read_process(text("file"), diagnostics);
-        throw_errors(diagnostics);
+        auto file = checked(diagnostics, xml::read_process(text("file"), diagnostics));
         return import_process(system, std::move(*file));
     }
     json use_part() {
-        const auto made = editing::use_part(system, text("file"), text("name"), text("id"), files);
-        place_new(made);
-        return made;
+        return placed(editing::use_part(system, text("file"), text("name"), text("id"), files));
     }
     json make_part() {
         const auto renamed = editing::make_part(system, registry, text("id"), text("file"),
@@ -266,8 +254,7 @@ const std::vector<Operation<SystemEdit>>& system_operations() {
              &SystemEdit::add_group},
             {"add_robot",
              "Adds a process for a robot of the world, with groups that drive it and that receive its "
-             "proximity "
-             "and its light sensors.",
+             "proximity and its light sensors.",
              {{"name", text(), "of the robot"}, placed("x"), placed("y"), made},
              &SystemEdit::add_robot},
             {"add_connection", "Adds a connection.",
@@ -301,8 +288,7 @@ const std::vector<Operation<SystemEdit>>& system_operations() {
             {"place", "Moves an item, or a comment.", {id, place("x"), place("y")}, &SystemEdit::place},
             {"line",
              "Changes the line of a connection. What is absent stays. Between processes, `vertices` are on "
-             "the "
-             "page of the system, and the others on the pages of the source's and the target's process.",
+             "the page of the system, and the others on the pages of the source's and the target's process.",
              with({id}, line), &SystemEdit::line},
             {"reroute",
              "Gives a connection another source or target. Vertices on a page that the line leaves are "
@@ -364,8 +350,7 @@ const std::vector<Operation<SystemEdit>>& system_operations() {
              &SystemEdit::delay},
             {"port_groups",
              "Adds groups of the sizes that ports of the module of a process need, and leads the ports to "
-             "them. "
-             "Returns their ids.",
+             "them. Returns their ids.",
              {id, {"ports", list(text())}},
              &SystemEdit::port_groups},
             {"ports",

@@ -78,8 +78,7 @@ std::string first_sentence(const std::string& text) {
 std::string use_part(model::System& system, const std::string& file, const std::string& name,
                      const std::string& id, const EditFiles& files) {
     Diagnostics diagnostics;
-    const auto part = xml::read_process(file, diagnostics);
-    throw_errors(diagnostics);
+    const auto part = checked(diagnostics, xml::read_process(file, diagnostics));
     if (part->process.ports.empty()) refuse_taken_ids(system, *part, file);
     auto made = model::use_part(system, *part, path_in(files.system(), file), name, id);
     read_uses(system, files.system());

@@ -37,8 +37,7 @@ const MemoryRecorder* find_recorder(const Run& run, const observe::Recorded& wan
 std::string draw_rows(Run& run, const plot::PlotSpec& spec, plot::Format format, Diagnostics& diagnostics) {
     const std::string text = spec.source();
     const auto parsed = expression::Context{text, "plot", diagnostics}.parsed(&expression::parse_source);
-    const auto source = observe::find_source(run.layout(), text, "plot", diagnostics);
-    throw_errors(diagnostics);
+    const auto source = checked(diagnostics, observe::find_source(run.layout(), text, "plot", diagnostics));
     plot::RowPlot drawn(spec, source->what(), &run.system());
     std::vector<double> taken(source->what().size());
     std::optional<observe::Part> part;
@@ -121,8 +120,7 @@ Observer& film(Run& run, const std::string& file, const std::vector<std::string>
     Diagnostics diagnostics;
     std::vector<model::Expression> sources;
     for (const auto& group : groups) sources.push_back({group});
-    auto film = plot::make_film(run, file, sources, "film", "film", diagnostics);
-    throw_errors(diagnostics);
+    auto film = checked(diagnostics, plot::make_film(run, file, sources, "film", "film", diagnostics));
     return run.add(std::move(film));
 }
 

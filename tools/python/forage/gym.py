@@ -169,10 +169,15 @@ def _number(reward: typing.Any) -> float:
     return float(reward)
 
 
-def _split(sensors: typing.Any, observation: typing.Any) -> dict[str, typing.Any]:
-    """The sensors in an observation: a dictionary of arrays with the shapes of their groups."""
-    ends = numpy.cumsum([numpy.prod(shape) for _, shape, _ in sensors])
-    return {name: part.reshape(shape) for (name, shape, _), part in zip(sensors, numpy.split(observation, ends[:-1]))}
+class _Sensing:
+    """What has sensors."""
+
+    sensors: typing.Any
+
+    def split(self, observation: typing.Any) -> dict[str, typing.Any]:
+        """The sensors in an observation: a dictionary of arrays with the shapes of their groups."""
+        ends = numpy.cumsum([numpy.prod(shape) for _, shape, _ in self.sensors])
+        return {name: part.reshape(shape) for (name, shape, _), part in zip(self.sensors, numpy.split(observation, ends[:-1]))}
 
 
 class _Kept:
@@ -272,7 +277,7 @@ class _Rendered(_Kept):
         self._agents = None
 
 
-class BugEnv(_Rendered, Env):  # type: ignore[misc]
+class BugEnv(_Sensing, _Rendered, Env):  # type: ignore[misc]
     """A robot in a world, as an environment of Gymnasium.
 
     An episode is a trial: the robot starts at the next start pose of the world, and the episode ends when it reaches a
@@ -353,10 +358,6 @@ class BugEnv(_Rendered, Env):  # type: ignore[misc]
         if self.render_mode == "human":
             self.render()
         return self.observation, reward, terminated, truncated, {"reached_target": self.reached_target}
-
-    def split(self, observation: typing.Any) -> dict[str, typing.Any]:
-        """The sensors in an observation: a dictionary of arrays with the shapes of their groups."""
-        return _split(self.sensors, observation)
 
 
 class BugParallelEnv(_Rendered, ParallelEnv):  # type: ignore[misc]
@@ -446,7 +447,7 @@ class BugParallelEnv(_Rendered, ParallelEnv):  # type: ignore[misc]
         return observations, rewards, terminations, truncations, infos
 
 
-class _One:
+class _One(_Sensing):
     """One of the environments of a BugVectorEnv: what the function of a reward, call() and get_attr() see."""
 
     def __init__(self, several: BugVectorEnv, number: int) -> None:
@@ -464,10 +465,6 @@ class _One:
     def run(self) -> _forage.Run:
         """As that of BugEnv."""
         return self._several._use.run(self._number)
-
-    def split(self, observation: typing.Any) -> dict[str, typing.Any]:
-        """As that of BugEnv."""
-        return _split(self.sensors, observation)
 
     def render(self) -> typing.Any:
         """A picture, as that of BugEnv."""

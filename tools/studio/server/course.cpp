@@ -61,8 +61,7 @@ std::optional<Course> build_run(const Sources& sources, const RunInput& input, s
 Course open_run(const RunInput& input, std::string* digest) {
     Diagnostics diagnostics;
     const Sources sources = read_sources(input, diagnostics);
-    auto out = build_run(sources, input, input.seed, diagnostics);
-    throw_errors(diagnostics);
+    auto out = checked(diagnostics, build_run(sources, input, input.seed, diagnostics));
     out->run->title = run_title(input);
     if (digest) *digest = digest_of_files(input, sources);
     return std::move(*out);

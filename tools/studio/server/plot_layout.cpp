@@ -129,8 +129,7 @@ class Converter {
 
 json plot_layout(const Run& run, const std::string& path, const std::string& text) {
     Diagnostics diagnostics;
-    const auto windows = xml::parse_plot_config(path, text, diagnostics);
-    throw_errors(diagnostics);
+    const auto windows = checked(diagnostics, xml::parse_plot_config(path, text, diagnostics));
     Converter converter(run, diagnostics);
     for (const auto& window : windows) converter.add(window);
     return {{"plots", converter.plots()}, {"problems", problems_of(diagnostics)}};

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "core/run/checkpoint_file.h"
 #include "tools/api/open/sources.h"
 #include "tools/studio/server/recent.h"
 #include "tools/studio/server/session.h"
@@ -177,8 +176,7 @@ Session::Killed Session::read_killed(std::string_view content) {
     out.panels = rest.at("panels");
     out.mode = rest.at("mode"), out.value = rest.at("value");
     Diagnostics diagnostics;
-    const Sources sources = read_sources(out.begun, diagnostics);
-    throw_errors(diagnostics);
+    const Sources sources = checked(diagnostics, read_sources(out.begun, diagnostics));
     if (digest_of_files(out.begun, sources) != head.files)
         throw InputError(
             fmt::format("the world or a linked process of '{}' has changed since the session was killed",

@@ -150,8 +150,8 @@ StreamSource find_stream_source(Run& run, std::string_view text, Delivery delive
         if (text.starts_with("sampled(") && text.ends_with(')'))
             return sampled_synapses(run, text.substr(8, text.size() - 9));
         Diagnostics diagnostics;
-        auto source = observe::find_source(run.layout(), text, "subscribe", diagnostics);
-        throw_errors(diagnostics);
+        auto source =
+            checked(diagnostics, observe::find_source(run.layout(), text, "subscribe", diagnostics));
         return cell_source(std::move(*source));
     };
     auto out = find();

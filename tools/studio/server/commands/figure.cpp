@@ -99,8 +99,7 @@ Results results_of_past(Session& s, const FigureNeeds& needs, const std::string&
     RecordOptions options;
     options.from = needs.from;
     Diagnostics diagnostics;
-    auto files = recorded_files(recordings, options, run.layout(), diagnostics);
-    throw_errors(diagnostics);
+    auto files = checked(diagnostics, recorded_files(recordings, options, run.layout(), diagnostics));
     ResultFiles written(folder);
     if (!files.empty())
         run.add(std::make_unique<Recordings>(std::move(files), options, folder,

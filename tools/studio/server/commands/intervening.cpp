@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <array>
-#include <string_view>
 
 #include <fmt/format.h>
 
@@ -16,16 +14,12 @@ namespace {
 
 using Manipulation = observe::Manipulation;
 using Patterns = std::vector<std::vector<double>>;
-
-constexpr std::array<std::string_view, 3> modes = {"clamp", "add", "multiply"};  ///< as Manipulation::Mode
-
-std::string name_of(Manipulation::Mode mode) { return std::string(modes[static_cast<std::size_t>(mode)]); }
+using Spec = model::ManipulationSpec;
 
 /// The number of a group. Throws InputError.
 int find_group(const Run& run, const std::string& name) {
     Diagnostics diagnostics;
-    const auto column = observe::find_column(run.layout(), name, "group", diagnostics);
-    throw_errors(diagnostics);
+    const auto column = checked(diagnostics, observe::find_column(run.layout(), name, "group", diagnostics));
     if (column->connection >= 0) throw InputError(fmt::format("'{}' is not a group", name));
     return column->group;
 }
@@ -53,8 +47,8 @@ Patterns patterns_for(const engine::Layout::Group& group, const json& given) {
 Manipulation::Settings settings_in(const Run& run, const json& action) {
     Manipulation::Settings out;
     out.group = find_group(run, action.at("group").get<std::string>());
-    out.mode = static_cast<Manipulation::Mode>(
-        std::ranges::find(modes, action.at("mode").get_ref<const std::string&>()) - modes.begin());
+    const auto& mode = action.at("mode").get_ref<const std::string&>();
+    out.mode = static_cast<Spec::Mode>(std::ranges::find(Spec::modes, mode) - Spec::modes.begin());
     out.patterns = patterns_for(group_at(run, out.group), action.at("patterns"));
     out.every = action.at("every"), out.step = action.at("step"), out.backwards = action.at("backwards");
     if (const auto it = action.find("times"); it != action.end() && !it->is_null()) out.times = *it;
@@ -73,7 +67,7 @@ json present_action(Session& s, const json& action) {
     const auto& m = it->second.settings();
     return {{"command", "manipulate"},
             {"group", group_at(s.run(), group).path},
-            {"mode", name_of(m.mode)},
+            {"mode", Spec::name_of(m.mode)},
             {"patterns", m.patterns},
             {"every", m.every},
             {"step", m.step},
@@ -87,15 +81,22 @@ json manipulate_group(Session& s, const Request& r) {
     const auto settings = settings_in(s.run(), action);  // also checks
     const auto& path = group_at(s.run(), settings.group).path;
     action["group"] = path;
-    return take_step(s, action, {.title = fmt::format("{} {}", name_of(settings.mode), path), .item = path});
+    return take_step(s, action,
+                     {.title = fmt::format("{} {}", Spec::name_of(settings.mode), path), .item = path});
 }
 
 DrivenGroup driven_by(Session& s, const json& manipulation) {
     const auto settings = settings_in(s.run(), manipulation);
     const auto& g = group_at(s.run(), settings.group);
     const bool full = g.shape.cells == g.shape.width * g.shape.height;
-    return {g.path,         name_of(settings.mode), settings.patterns, full ? g.shape.width : g.shape.cells,
-            settings.every, settings.step,          settings.times,    settings.backwards};
+    return {g.path,
+            Spec::name_of(settings.mode),
+            settings.patterns,
+            full ? g.shape.width : g.shape.cells,
+            settings.every,
+            settings.step,
+            settings.times,
+            settings.backwards};
 }
 
 Equivalent script_manipulate(Session& s, const json& action) {
@@ -208,7 +209,8 @@ std::vector<Command> intervening_commands() {
     return {
         {.name = "manipulate",
          .doc = "Replaces the manipulation of a group.",
-         .arguments = {group, patterns, optional("mode", choice({"clamp", "add", "multiply"}), "clamp"),
+         .arguments = {group, patterns,
+                       optional("mode", choice({Spec::modes.begin(), Spec::modes.end()}), "clamp"),
                        optional("every", whole(1, 1'000'000'000), 1, "cycles per pattern"),
                        optional("step", whole(1, 1'000'000'000), 1, "patterns"),
                        optional("times", whole(1, 1'000'000'000), nullptr, "by default endlessly"),

@@ -15,8 +15,7 @@ namespace {
 std::vector<xml::PanelRow> read_panel(const std::string& path, FileKind kind) {
     check_readable(path, {kind});
     Diagnostics diagnostics;
-    auto rows = xml::parse_panel(path, read_file(path), diagnostics);
-    throw_errors(diagnostics);
+    auto rows = checked(diagnostics, xml::parse_panel(path, read_file(path), diagnostics));
     return rows;
 }
 

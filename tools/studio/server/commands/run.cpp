@@ -48,8 +48,7 @@ json run_until(Session& s, const Request& r) {
     if (!length.trials && !length.seconds && length.until.empty())
         throw InputError("what should the run wait for?", "a number of trials, seconds, or a condition");
     Diagnostics diagnostics;
-    auto condition = StopCondition::make(length, s.run(), diagnostics);
-    throw_errors(diagnostics);
+    auto condition = checked(diagnostics, StopCondition::make(length, s.run(), diagnostics));
     if (condition.holds(s.run()))
         throw InputError(fmt::format("'{}' holds already", length.until.text),
                          "go back, or wait for something else");
@@ -71,8 +70,7 @@ json condition_holds(Session& s, const Request& r) {
     RunLength length;
     length.in_code = true, length.until = {r.text("condition")};
     Diagnostics diagnostics;
-    const auto condition = StopCondition::make(length, s.run(), diagnostics);
-    throw_errors(diagnostics);
+    const auto condition = checked(diagnostics, StopCondition::make(length, s.run(), diagnostics));
     return {{"holds", condition.holds(s.run())}};
 }
 
@@ -184,8 +182,7 @@ json example_picture(Session& s, const Request& r) {
     RunInput input;
     input.system = path(r.text("system")), input.world = path(r.text("world"));
     Diagnostics diagnostics;
-    const auto loaded = load(input, diagnostics);
-    throw_errors(diagnostics);
+    const auto loaded = checked(diagnostics, load(input, diagnostics));
     plot::Picture picture;
     if (const auto* world = loaded->world.get()) {
         const plot::WorldMap map(*world, {}, pixels, 0, 0);
