@@ -100,8 +100,7 @@ constexpr Row rows[] = {
      "name"},
     {"state",
      "deletions:*= insertions:*= iterations:*=* light&@state_light model&@state_model real_time:*=* "
-     "sim_time:*=* "
-     "wall_time:*=*",
+     "sim_time:*=* wall_time:*=*",
      "world_name?=*"},
     {"state_light", "pose@pose:p", "name"},
     {"state_model", "joint&:*= link&@state_link model&@state_model pose@pose:p scale:3=1,1,1", "name"},
@@ -120,8 +119,7 @@ constexpr Row rows[] = {
     {"scene", "ambient:c background:c=0.7,0.7,0.7 fog:*= grid:b=* origin_visual:b=* shadows:b=* sky:*="},
     {"light",
      "attenuation:*=* cast_shadows:b=* diffuse:c=1,1,1|0.8,0.8,0.8 direction:3 frame&:*= intensity:1=1 "
-     "light_on:b=1 "
-     "pose@pose:p specular:c=* spot:*=* visualize:b=*",
+     "light_on:b=1 pose@pose:p specular:c=* spot:*=* visualize:b=*",
      "name type"},
     {"plugin", ":*", "name filename"},
     {"include", "name:s placement_frame:s plugin& pose@pose:p static:b uri+:uri", "merge?:b"},

@@ -286,8 +286,7 @@ class Reader {
             if (const xml::Element part = moved_part(e, *found, found->pose))
                 diagnostics_.warning(
                     part.where(),
-                    fmt::format("<state> moves '{}', a part of '{}': it stays where its model "
-                                "puts it",
+                    fmt::format("<state> moves '{}', a part of '{}': it stays where its model puts it",
                                 part["name"].view, found->name),
                     "only whole models are moved");
         }

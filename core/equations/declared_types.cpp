@@ -152,8 +152,7 @@ class Builder {
             if (!is_equation_name(name) || contains(inputs, name))
                 out_.error(at, fmt::format("'{}' cannot be the name of a {}", name, what),
                            "letters, digits and _, not first a digit; exc, inh, mod, pre, post, t, dt and "
-                           "the words of "
-                           "formulas and equations have a meaning of their own");
+                           "the words of formulas and equations have a meaning of their own");
             if (contains(seen, name))
                 out_.error(at, fmt::format("there is already a '{}' in this type", name),
                            "choose another name");

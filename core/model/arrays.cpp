@@ -240,8 +240,7 @@ void ArrayCheck::initial(const TypeUse& use, const std::vector<std::string>& sta
                        fmt::format("{} has no state '{}' that begins with a value", use.type, i.state),
                        std::ranges::find(parameters, i.state) != parameters.end()
                            ? fmt::format("'{}' is a parameter, which is the same in all cells; a state of a "
-                                         "type in the file "
-                                         "that no equation changes can differ",
+                                         "type in the file that no equation changes can differ",
                                          i.state)
                        : states.empty() ? fmt::format("{} keeps no numbers", use.type)
                                         : suggest(i.state, states));

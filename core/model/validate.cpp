@@ -1,7 +1,6 @@
 #include "core/model/validate.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -52,8 +51,7 @@ Diagnostic unknown_type(std::string_view kind, const TypeUse& use, const std::ve
         const auto& [folder, how] = registry.unloaded.front();
         return error(
             fmt::format(
-                "there is no {} type '{}' in Forage; it may be that of a plugin in '{}', which is not "
-                "loaded",
+                "there is no {} type '{}' in Forage; it may be that of a plugin in '{}', which is not loaded",
                 kind, name, folder),
             hint.starts_with("did you mean") ? hint + " " + how : how);
     }

@@ -64,9 +64,8 @@ void add_manipulations(CLI::App& run, RunSpec& o) {
 void add_recording(CLI::App& run, RunSpec& o) {
     auto* record = add_each(
         run, "-r,--record", [&o](const std::string& text) { o.recordings.push_back({{text}}); }, "SOURCE",
-        "Write 'Process/Group' (its activity) or 'Process/Group:state' to a file; "
-        "'...(x1..x2,y1..y2)' for some of its cells, 'mean(...)' for their mean, "
-        "'...=NAME.h5' to name the file; may be repeated");
+        "Write 'Process/Group' (its activity) or 'Process/Group:state' to a file; '...(x1..x2,y1..y2)' for "
+        "some of its cells, 'mean(...)' for their mean, '...=NAME.h5' to name the file; may be repeated");
     add_value(run, "--format", o.record.format, "FORMAT",
               "Format of recordings without a file name: csv, npy, npz (NumPy), h5 (HDF5) or dat (the "
               "original's data sampler) [csv]")
@@ -207,9 +206,8 @@ void add_run_options(CLI::App& run, RunOptions& options) {
                  "Play the robotics challenge: two teams collect resources for five minutes")
         ->needs("--world");
     add_value(run, "--video", o.video, "FILE",
-              "Film the world from above, with what the robots see: an animated .gif, an .mp4 film "
-              "(needs ffmpeg), "
-              "or numbered .png files")
+              "Film the world from above, with what the robots see: an animated .gif, an .mp4 film (needs "
+              "ffmpeg), or numbered .png files")
         ->needs("--world");
     add_texts(
         run, "--video-group", o.video_groups,

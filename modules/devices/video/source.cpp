@@ -111,8 +111,7 @@ std::unique_ptr<Source> open_film(const std::string& file) {
     // Other formats draw texts, or are lists of files.
     const std::string formats =
         "mp4,matroska,avi,mpeg,mpegts,mpegvideo,ogg,flv,asf,nut,gif,apng,yuv4mpegpipe,mjpeg,h264,hevc,m4v,"
-        "ivf,"
-        "png_pipe,jpeg_pipe,bmp_pipe,ppm_pipe,tiff_pipe,webp_pipe,image2";
+        "ivf,png_pipe,jpeg_pipe,bmp_pipe,ppm_pipe,tiff_pipe,webp_pipe,image2";
     // A film may name others, which ffmpeg would fetch from anywhere.
     return std::make_unique<Decoded>(
         file, std::vector<std::string>{"-protocol_whitelist", "file,pipe", "-format_whitelist", formats, "-i",

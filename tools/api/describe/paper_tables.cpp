@@ -16,20 +16,16 @@ constexpr const char* meaning_of_equations =
     "Equations are carried out from top to bottom in each cycle; `x'` is the value of `x` at the end of the "
     "cycle. Derivatives, per second, are integrated by Euler's method with the time of a cycle, `dt`. The "
     "inputs `exc`, `inh` and `mod` of a cell are sums over its excitatory, inhibitory and modulatory "
-    "synapses; "
-    "`pre` is the output of the source of a synapse. What a synapse puts out reaches its target in the next "
-    "cycle, or after its delay. States begin with 0 unless a table says otherwise. `uniform()` are random "
-    "numbers between 0 and 1, `normal()` those of a normal distribution, new for each cell and cycle.";
+    "synapses; `pre` is the output of the source of a synapse. What a synapse puts out reaches its target in "
+    "the next cycle, or after its delay. States begin with 0 unless a table says otherwise. `uniform()` are "
+    "random numbers between 0 and 1, `normal()` those of a normal distribution, new for each cell and cycle.";
 
 constexpr const char* meaning_of_attenuations =
     " A synapse with an attenuation `a` at the distance `d` of its cells delivers its output times `r` - "
-    "`a`. "
-    "From min to max, linear attenuations are min + (max - min) `d` / `D`, where `D` is the largest distance "
-    "in "
-    "the connection; Gaussian ones min + (max - min) (1 - exp(-`d`² / 2 sigma²)), and block ones min up to "
-    "half "
-    "of the width, then max. `r` is the largest attenuation in the connection, or 1 when attenuations are "
-    "constant or random.";
+    "`a`. From min to max, linear attenuations are min + (max - min) `d` / `D`, where `D` is the largest "
+    "distance in the connection; Gaussian ones min + (max - min) (1 - exp(-`d`² / 2 sigma²)), and block ones "
+    "min up to half of the width, then max. `r` is the largest attenuation in the connection, or 1 when "
+    "attenuations are constant or random.";
 
 std::string type_title(const DeclarationDescription& t) {
     return t.label.empty() ? fmt::format("{} ({})", t.name, t.kind)

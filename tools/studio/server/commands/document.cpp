@@ -8,7 +8,6 @@
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
 #include "core/model/build.h"
-#include "core/xml/reader.h"
 #include "core/xml/writer.h"
 #include "tools/studio/server/backups.h"
 #include "tools/studio/server/commands/shared.h"
@@ -260,8 +259,7 @@ std::vector<Command> document_commands() {
          .apply = list_recent},
         {.name = "settings",
          .doc = "Changes and returns the settings in `$XDG_STATE_HOME/forage/settings.json`, for the studios "
-                "that "
-                "start from now on.",
+                "that start from now on.",
          .arguments = {optional("save_interval", number(min_save_interval, max_save_interval), nullptr,
                                 "in s")},
          .result = "{ save_interval: number }",

@@ -317,8 +317,7 @@ std::vector<Command> editing_commands() {
     return {
         {.name = "edit",
          .doc = "Carries out [operations](#operations), all of them or none, as one step. Returns the id "
-                "that each "
-                "one made, a list of ids, or null.",
+                "that each one made, a list of ids, or null.",
          .arguments = {{"operations", list(record({}, "Operation"))}, optional("title", text(), ""), merge},
          .result = "{ ids: (string | string[] | null)[]; warnings: string[]; generation: number }",
          .changes_run = true,
@@ -346,8 +345,7 @@ std::vector<Command> editing_commands() {
          .apply = replace_item_text},
         {.name = "item_check",
          .doc = "Returns what would be wrong with a text of the element of an item. Lines and columns are "
-                "those of "
-                "`text`, and 0 when something elsewhere becomes wrong.",
+                "those of `text`, and 0 when something elsewhere becomes wrong.",
          .arguments = {item, {"text", text()}},
          .result = "{ problems: Problem[] }",
          .apply = check_item_text},
@@ -373,8 +371,7 @@ std::vector<Command> editing_commands() {
          .apply = [](Session&, const Request&) { return describe_vocabulary(); }},
         {.name = "preview",
          .doc = "Returns which cells, from 0, a connection would join with another pattern or other "
-                "functions; at "
-                "most 200000 pairs of `synapses`. Changes nothing.",
+                "functions; at most 200000 pairs of `synapses`. Changes nothing.",
          .arguments = previewed,
          .result = "PreviewResult",
          .apply = preview_connection},

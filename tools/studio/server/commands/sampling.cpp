@@ -142,8 +142,7 @@ std::vector<Command> sampling_commands() {
     return {
         {.name = "sample",
          .doc = "Records into a file (`.csv`, `.dat`, `.npy`, `.h5`). `append` needs a `.csv` or `.dat` with "
-                "the "
-                "same sources; `sequence` writes `NAME_001.csv`, ...",
+                "the same sources; `sequence` writes `NAME_001.csv`, ...",
          .arguments = {{"file", path()},
                        {"sources", texts()},
                        optional("every", whole(1, 1'000'000), 1),

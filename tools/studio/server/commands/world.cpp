@@ -218,8 +218,7 @@ std::vector<Command> world_commands() {
          .apply = edit_world},
         {.name = "world_save",
          .doc = "Saves the world and begins the run again in it. Rejected when the system cannot run in it, "
-                "and for "
-                "a world that comes with Forage.",
+                "and for a world that comes with Forage.",
          .arguments = {optional("file", path(), nullptr, "`.world`; by default the same"),
                        optional("overwrite", boolean(), false)},
          .result = "{ file: string }",
