@@ -1,6 +1,5 @@
 // The contacts of an island in a stride, which Bullet solves, and what happens when that was not enough.
 #include <algorithm>
-#include <cmath>
 
 #include "bug_interface/motion/bullet_world.h"
 #include "bug_interface/motion/physics.h"

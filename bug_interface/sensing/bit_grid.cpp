@@ -1,7 +1,5 @@
 #include "bug_interface/sensing/bit_grid.h"
 
-#include <algorithm>
-
 namespace forage::bug {
 
 void BitGrid::make_sums() {

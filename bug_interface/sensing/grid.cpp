@@ -1,7 +1,5 @@
 #include "bug_interface/sensing/grid.h"
 
-#include <cmath>
-
 namespace forage::bug {
 
 void Grid::reserve(std::size_t items) {

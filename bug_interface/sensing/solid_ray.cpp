@@ -1,7 +1,5 @@
 #include "bug_interface/sensing/solid_ray.h"
 
-#include <array>
-#include <cmath>
 #include <limits>
 
 #include "bug_interface/sensing/four.h"

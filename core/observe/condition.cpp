@@ -1,7 +1,6 @@
 #include "core/observe/condition.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

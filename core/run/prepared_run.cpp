@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include "core/run/bundle.h"
-#include "core/run/checkpoint_file.h"
 #include "core/run/run_json.h"
 
 namespace forage {

@@ -1,6 +1,5 @@
 #include "core/run/run_json.h"
 
-#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>

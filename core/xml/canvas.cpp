@@ -1,7 +1,5 @@
 #include "core/xml/canvas.h"
 
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "core/base/number.h"

@@ -1,7 +1,6 @@
 #include "core/xml/experiment.h"
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <span>
 #include <string>

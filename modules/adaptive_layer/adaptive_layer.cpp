@@ -1,7 +1,5 @@
 #include "modules/adaptive_layer/adaptive_layer.h"
 
-#include <cmath>
-
 namespace forage::adaptive {
 namespace {
 

@@ -1,6 +1,5 @@
 // Lists and runs the exercises of the tutorial.
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "tools/plot/lines.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <map>
 

@@ -12,7 +12,6 @@
 #include "core/connectivity/connect.h"
 #include "core/model/lookup.h"
 #include "core/observe/source.h"
-#include "core/run/experiment/tables.h"
 
 namespace forage {
 namespace {

@@ -6,7 +6,6 @@
 #include "core/base/file_bytes.h"
 #include "core/base/output_files.h"
 #include "core/run/experiment/result_json.h"
-#include "core/run/input_files.h"
 
 namespace forage {
 namespace {

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "core/base/output_files.h"
-#include "core/base/text_file.h"
 #include "core/run/input_error.h"
 #include "tools/api/open/sources.h"
 

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "core/base/named_file.h"
 #include "core/base/table.h"
 #include "core/run/result_names.h"
 

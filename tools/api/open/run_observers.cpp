@@ -9,7 +9,6 @@
 
 #include "core/observe/manipulation_spec.h"
 #include "core/run/broadcaster.h"
-#include "core/run/checkpoint_file.h"
 #include "core/run/path_recorder.h"
 #include "core/run/recordings.h"
 #include "core/run/result_names.h"
@@ -148,8 +147,8 @@ void add_remote(Preparation& p) {
             if (now.cycle() == 0) throw InputError("there is no cycle to draw yet");
             const std::string state = command.parameter.empty() ? "" : ":" + command.parameter;
             Diagnostics diagnostics;
-            const auto source = observe::find_source(now.layout(), "#" + id + state, "plot", diagnostics);
-            throw_errors(diagnostics);
+            const auto source = checked(
+                diagnostics, observe::find_source(now.layout(), "#" + id + state, "plot", diagnostics));
             what = "\"#" + id + "\"" + state;
             spec.kind = plot::PlotSpec::Kind::space, spec.what = source->what().name;
             spec.cycles_text = std::to_string(now.cycle() - 1);

@@ -83,8 +83,8 @@ void restore(Archive& archive, Run& run, double& overrun) {
         std::vector<model::Measure> specs;
         for (; count > 0; --count) keep(archive, specs.emplace_back());
         Diagnostics diagnostics;
-        auto measures = std::make_unique<RunMeasures>(specs, run.layout(), run.environment(), diagnostics);
-        throw_errors(diagnostics);
+        auto measures = checked(
+            diagnostics, std::make_unique<RunMeasures>(specs, run.layout(), run.environment(), diagnostics));
         run.add(std::move(measures));
     }
 }

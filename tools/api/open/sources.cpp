@@ -10,7 +10,6 @@
 #include "bug_interface/module/gazebo_bug.h"
 #include "bug_interface/world/sdf_reader.h"
 #include "core/base/named_file.h"
-#include "core/base/output_files.h"
 #include "core/base/text_file.h"
 #include "core/equations/declared_types.h"
 #include "core/model/build.h"

@@ -1,7 +1,6 @@
 #include "tools/studio/server/session.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -15,7 +14,6 @@
 #include "core/observe/hdf5_file.h"
 #include "tools/api/describe/describe_json.h"
 #include "tools/api/edit/json_text.h"
-#include "tools/api/open/sources.h"
 #include "tools/plot/world_map.h"
 #include "tools/studio/server/commands.h"
 #include "tools/studio/server/commands/command.h"

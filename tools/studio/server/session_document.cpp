@@ -12,7 +12,6 @@
 #include "core/model/expression.h"
 #include "core/model/operations.h"
 #include "core/xml/writer.h"
-#include "tools/api/describe/describe_json.h"
 #include "tools/api/open/sources.h"
 #include "tools/studio/server/backups.h"
 #include "tools/studio/server/document_problems.h"

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "core/model/expression.h"
-#include "core/model/operations.h"
 #include "tools/api/describe/describe_json.h"
 #include "tools/studio/server/commands.h"
 #include "tools/studio/server/commands/shared.h"
