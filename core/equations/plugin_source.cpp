@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "core/equations/compile.h"
-#include "core/formula/operations.h"
 
 namespace forage::equations {
 namespace {

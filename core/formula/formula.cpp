@@ -4,6 +4,12 @@
 
 namespace forage {
 
+int operands(Formula::Op op) {
+    int out = 0;
+    with_operation(op, [&](auto f) { out = operands_of<decltype(f)>; });
+    return out;
+}
+
 double Formula::value(const Names& names) const {
     return value(static_cast<std::uint32_t>(nodes_.size() - 1), names);
 }

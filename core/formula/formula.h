@@ -87,6 +87,9 @@ class Formula {
     std::vector<std::string> names_;
 };
 
+/// How many numbers an operator or a function of formulas takes; 0 for numbers and names.
+int operands(Formula::Op op);
+
 /// Whether a text is a formula in braces: "{1 + lambda}".
 inline bool in_braces(std::string_view text) {
     return text.size() >= 2 && text.front() == '{' && text.back() == '}';

@@ -85,11 +85,5 @@ template <class F>
 constexpr int operands_of = std::is_invocable_v<F, double>           ? 1
                             : std::is_invocable_v<F, double, double> ? 2
                                                                      : 3;
-/// The same of an operator or a function of formulas; 0 for numbers and names.
-inline int operands(Formula::Op op) {
-    int out = 0;
-    with_operation(op, [&](auto f) { out = operands_of<decltype(f)>; });
-    return out;
-}
 
 }  // namespace forage

@@ -113,7 +113,7 @@ template <class T>
 py::capsule keeper(T value) {
     return {new T(std::move(value)), [](void* p) { delete static_cast<T*>(p); }};
 }
-/// The array, to which nobody can write from now on.
+/// The array, which is read-only from now on.
 template <class Array>
 Array read_only(Array array) {
     array.attr("flags").attr("writeable") = false;

@@ -8,7 +8,6 @@
 #include "core/base/number.h"
 #include "core/base/separated.h"
 #include "core/equations/statements.h"
-#include "core/formula/operations.h"
 #include "core/types/parameter.h"
 
 namespace forage {
