@@ -107,7 +107,7 @@ std::vector<ItemKind> kinds_of_items() {
             {"floor", "A floor whose bounds end trials: GroundPlane", floors},
             {"light", "A target: robots see its light from afar and drive under it; reaching it ends a trial",
              targets},
-            {"goal", "A target that cameras see, too: a cylinder above the robots", targets},
+            {"goal", "A target as a light is, which cameras see, too: a cylinder above the robots", targets},
             {"resource", "A ball that counts when it is brought to a home", targets},
             {"home", "Where a team brings resources: Home_A and Home_B", targets},
             {"site", "Where resources of a game appear", targets},
@@ -155,7 +155,8 @@ std::string new_item_text(const NewItem& item, bool has_floor, ModelTexts& model
             "<light name=\"{}\" type=\"directional\"><direction>-0.5 0.1 -0.9</direction></light>",
             xml::encoded(item.name));
     if (kind == "trials")
-        return "<plugin name=\"trials\" filename=\"libforage_trials.so\"><reach>0.45</reach></plugin>";
+        return "<plugin name=\"trials\" "
+               "filename=\"libforage_trials.so\"><reach>0.45</reach><duration>60</duration></plugin>";
     if (kind == "game")
         return "<plugin name=\"game\" filename=\"libforage_game.so\"><duration>300</duration></plugin>";
     if (kind == "site")

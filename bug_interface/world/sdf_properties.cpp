@@ -23,6 +23,7 @@ struct ValueRow {
     std::string_view name, label, path;
     double otherwise, low, high;  ///< `otherwise` is what counts without the element
     bool whole = false;
+    double unit = 1;  ///< of `otherwise`, `low` and `high`, in that of the element
 };
 
 constexpr ValueRow world_rows[] = {
@@ -36,7 +37,9 @@ std::vector<ValueRow> rows_of(const Entry& e) {
     const auto add = [&]<class Rules>(const Rules& usual, const auto& table) {
         for (const RuleOf<Rules>& r : table) {
             const double value = std::visit([&](auto m) { return static_cast<double>(usual.*m); }, r.member);
-            out.push_back({r.name, r.label, r.name, std::min(value, r.high), r.low, r.high, r.whole()});
+            const double high = std::floor(r.high / r.unit);  // also in degrees a whole number
+            out.push_back({r.name, r.label, r.name, std::min(value / r.unit, high), r.low / r.unit, high,
+                           r.whole(), r.unit});
         }
     };
     if (e.form == Entry::Form::world) out.assign(std::begin(world_rows), std::end(world_rows));
@@ -255,7 +258,8 @@ std::vector<ItemProperty> properties_of(std::string_view text, const Entry& e, c
     const auto* element = e.is_model() ? e.body.element : e.element;
     for (const ValueRow& r : rows_of(e)) {
         const auto v = numbers_in(e.is_model() ? e.body.text : text, at_path(*element, r.path));
-        auto p = number(r.name, r.label, v.empty() ? r.otherwise : v[0], r.low, r.high);
+        auto p = number(r.name, r.label, v.empty() ? r.otherwise : v[0] / r.unit, r.low, r.high,
+                        r.unit == 1 ? 1e-6 : 0.01);
         if (r.whole) p.kind = "integer";
         out.push_back(std::move(p));
     }
@@ -299,7 +303,7 @@ void write_property(SdfEdit& to, const Entry& e, const ItemProperty& p, const st
     }
     for (const ValueRow& r : rows_of(e))
         if (r.name == name) {
-            const auto one = number_text(v);
+            const auto one = number_text(v * r.unit);
             return to.set_value(*e.element, r.path,
                                 name == "ambient" ? fmt::format("{0} {0} {0} 1", one) : one);
         }

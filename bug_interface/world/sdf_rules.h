@@ -2,6 +2,7 @@
 // and the editor use these tables.
 #pragma once
 
+#include <numbers>
 #include <string_view>
 #include <variant>
 
@@ -15,6 +16,7 @@ struct RuleOf {
     std::variant<double Rules::*, int Rules::*> member;
     std::string_view name, label, doc;  ///< of the element; in a form; in hints
     double low, high;
+    double unit = 1;  ///< of the form, in that of the element
 
     bool whole() const { return std::holds_alternative<int Rules::*>(member); }
 };
@@ -22,7 +24,7 @@ struct RuleOf {
 inline constexpr RuleOf<TrialRules> trial_rules[] = {
     {&TrialRules::reach, "reach", "Reach, m", "metres", 0.2, 100},
     {&TrialRules::duration, "duration", "Longest trial, s", "seconds of the world", 1e-3, 1e6},
-    {&TrialRules::heading, "heading", "Deviation of headings, rad", "radians", 0, 3.2},
+    {&TrialRules::heading, "heading", "Deviation of headings, °", "radians", 0, 3.2, std::numbers::pi / 180},
 };
 inline constexpr RuleOf<GameRules> game_rules[] = {
     {&GameRules::duration, "duration", "Duration, s", "seconds of the world", 1e-6, 1e6},
