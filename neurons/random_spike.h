@@ -19,7 +19,7 @@ struct RandomSpike {
         s.param("probability", &T::probability)
             .label("Probability")
             .range(0, 1)
-            .doc("Chance of a spike per cell and cycle.");
+            .doc("Chance of a spike per cell and cycle; with 1, the cells are always on.");
         s.param("spkAmpl", &T::amplitude).label("Spike amplitude").range(0, 1).doc("Activity of a spike.");
         s.output("act", &Cell::act, "Activity");
     }
