@@ -27,14 +27,14 @@ export class Trail {
     return [this.x, this.y, this.trial, this.cycle];
   }
 
-  /** Calls `line` with the first and the last index of each unbroken piece, and its opacity: older trials are fainter. */
+  /** Calls `line` with the first and the last index of each unbroken piece, and its opacity: what was before the present trial is much fainter, as robots often take the same way. */
   pieces(line: (first: number, last: number, opacity: number) => void): void {
     const newest = this.trial[this.trial.length - 1] ?? 0;
     for (let i = 0; i < this.x.length;) {
       const first = i, trial = this.trial[i]!;
       // A robot that is reset or moved jumps.
       for (i++; i < this.x.length && this.trial[i] === trial && Math.hypot(this.x[i]! - this.x[i - 1]!, this.y[i]! - this.y[i - 1]!) < 0.5;) i++;
-      line(first, i - 1, Math.max(0.12, 0.9 - 0.12 * (newest - trial)));
+      line(first, i - 1, trial === newest ? 0.9 : Math.max(0.1, 0.5 - 0.1 * (newest - trial)));
     }
   }
 }

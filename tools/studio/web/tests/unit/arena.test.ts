@@ -35,7 +35,7 @@ describe('a trail', () => {
     expect(t.x).toEqual([0, 0.1, 3, 3.1]);
     const pieces: number[][] = [];
     t.pieces((first, last, opacity) => pieces.push([first, last, +opacity.toFixed(2)]));
-    expect(pieces).toEqual([[0, 1, 0.78], [2, 2, 0.78], [3, 3, 0.9]]);
+    expect(pieces).toEqual([[0, 1, 0.4], [2, 2, 0.4], [3, 3, 0.9]]);
   });
   it('forgets its beginning when it is long', () => {
     const t = new Trail();
