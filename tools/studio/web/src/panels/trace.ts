@@ -53,6 +53,11 @@ export class Trace {
     }
   }
 
+  /** Forgets all: the run begins again. */
+  clear(): void {
+    this.x.length = this.y.length = 0;
+  }
+
   /** The times within the last `seconds`, or since an earlier moment. */
   times(seconds: number, since = Infinity): number[] {
     const from = Math.min((this.x[this.x.length - 1] ?? 0) - seconds, since);
@@ -94,6 +99,11 @@ export class Traces {
       }, every);
     });
     return () => ends.forEach((end) => end());
+  }
+
+  /** Forgets all values: the run begins again. */
+  clear(): void {
+    for (const trace of this.byKey.values()) trace.clear();
   }
 
   /** The times of the longest trace within the last `seconds`, or since an earlier moment, then the values of each trace; NaN where it has none. */

@@ -33,6 +33,12 @@ describe('traces over time', () => {
     expect(traces.merged(['b'], 10)).toEqual([[], []]);
     expect(traces.merged([], 10)).toEqual([[]]);
   });
+  it('are empty when the run begins again, and have what follows', () => {
+    traces.clear();
+    expect(traces.merged(['a', 'b'], 10)[0]).toEqual([]);
+    listeners.get('Bug/Light')!(rows([[0, 7]]), { epoch: 2 } as Frame);
+    expect(traces.merged(['a'], 10)).toEqual([[0], [7]]);
+  });
 });
 
 describe('keys in a plot over time', () => {
