@@ -26,15 +26,16 @@ export function ends(i: WorldItem): [number, number, number, number] {
   return out;
 }
 
-/** What the map shows at first: all items but floors, and the view of the run's world. */
+/** What the map shows at first: all items but floors, and the view of the run's world, with room to build around a robot that is alone. */
 export function viewOf(items: WorldItem[], shown: [number, number, number, number] | undefined): View {
-  const margin = 0.2;
+  const margin = 0.2, least = 4;
   const all = items.filter((i) => i.placed && i.kind !== 'floor').map(ends);
   const left = Math.min(shown?.[0] ?? -2.5, ...all.map((e) => e[0] - margin));
   const bottom = Math.min(shown?.[1] ?? -2.5, ...all.map((e) => e[1] - margin));
   const right = Math.max(shown?.[2] ?? 2.5, ...all.map((e) => e[2] + margin));
   const top = Math.max(shown?.[3] ?? 2.5, ...all.map((e) => e[3] + margin));
-  return { x: left, y: -top, width: right - left, height: top - bottom };
+  const width = Math.max(least, right - left), height = Math.max(least, top - bottom);
+  return { x: (left + right - width) / 2, y: -(top + bottom + height) / 2, width, height };
 }
 
 /** Whether an item is on the map. A floor without bounds has no end, and is not drawn. */
@@ -46,6 +47,12 @@ export const drawn = (items: WorldItem[]): WorldItem[] => items.filter(isOnMap).
 /** The view zoomed by a factor around a place of the screen's coordinates (y downwards). */
 export function zoomed(v: View, factor: number, x: number, y: number): View {
   return { x: x - (x - v.x) * factor, y: y - (y - v.y) * factor, width: v.width * factor, height: v.height * factor };
+}
+
+/** The step of the lines of the map, m: 1, 2 or 5 times a power of ten, at least 50 pixels of the screen and no less than things snap to. */
+export function lineStep(pixel: number): number {
+  const least = Math.max(grid, 50 * pixel), power = 10 ** Math.floor(Math.log10(least));
+  return Number(([1, 2, 5, 10].find((k) => k * power >= least * (1 - 1e-9))! * power).toPrecision(1));
 }
 
 /** The grid, m, and the angles, rad, to which things snap. */

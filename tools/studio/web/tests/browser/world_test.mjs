@@ -48,6 +48,17 @@ export default async function({ forage, site, folder, start, open, onDisk, fault
   await field('Width, m').fill('1.5');
   await field('Width, m').press('Enter');
 
+  step('the map has lines with a scale, and is zoomed by buttons');
+  const scale = () => map.evaluate((e) => [e.viewBox.baseVal.width, e.parentElement.querySelector('.scale').textContent]);
+  const [wideView, lines] = await scale();
+  await world.getByRole('button', { name: 'Zoom in' }).click();
+  await world.getByRole('button', { name: 'Zoom in' }).click();
+  const [nearer, finer] = await scale();
+  assert.ok(nearer < 0.6 * wideView && parseFloat(finer) < parseFloat(lines), `${wideView} ${lines} ${nearer} ${finer}`);
+  await world.getByRole('button', { name: 'Show all' }).click();
+  assert.equal((await scale())[0], wideView);
+  await wall.focus();
+
   step('handles turn and resize it, each drag as one step of the history; a key switches snapping off');
   const number = async (label) => Number(await field(label).inputValue());
   const middle = async (locator) => {

@@ -1,5 +1,5 @@
 import { describe, expect, it } from 'vitest';
-import { corners, degrees, drawn, ends, grid, reach, resized, sizesOf, snapped, turn, viewOf, zoomed } from '../../src/edit/world_map';
+import { corners, degrees, drawn, ends, grid, lineStep, reach, resized, sizesOf, snapped, turn, viewOf, zoomed } from '../../src/edit/world_map';
 import type { WorldItem, WorldPart } from '../../src/protocol/messages';
 
 const part = (x: number, y: number, size: number[]): WorldPart => ({ x, y, yaw: 0, size, color: '#ff0000' });
@@ -8,6 +8,7 @@ const item = (kind: string, x: number, y: number, parts: WorldPart[] = [], place
 describe('the map of a world', () => {
   it('shows what the run shows, and every item but floors, with y upwards', () => {
     expect(viewOf([], [-2, -1, 2, 3])).toEqual({ x: -2, y: -3, width: 4, height: 4 });
+    expect(viewOf([], [-0.25, -0.25, 0.75, 0.75])).toEqual({ x: -1.75, y: -2.25, width: 4, height: 4 });
     const v = viewOf([item('pillar', 0, 5, [part(0, 0, [0.8])]), item('floor', 900, 900, [part(0, 0, [9, 9])]), item('sun', 900, 0, [], false)], [-2, -1, 2, 3]);
     expect([v.x, v.width]).toEqual([-2, 4]);
     expect(v.y).toBeCloseTo(-6);
@@ -21,6 +22,9 @@ describe('the map of a world', () => {
     const v = zoomed({ x: 0, y: 0, width: 10, height: 10 }, 0.5, 2, 4);
     expect(v).toEqual({ x: 1, y: 2, width: 5, height: 5 });
     expect((2 - v.x) / v.width).toBeCloseTo(0.2);
+  });
+  it('has lines that are far enough apart to be seen, and no finer than the grid', () => {
+    expect([0.001, 0.0041, 0.011, 0.03, 0.5].map(lineStep)).toEqual([grid, 0.5, 1, 2, 50]);
   });
   it('snaps to a grid and to angles', () => {
     expect(snapped(1.234, grid)).toBe(1.2);
