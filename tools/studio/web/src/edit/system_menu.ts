@@ -44,7 +44,7 @@ export function systemMenu(): Entries {
     { label: 'Properties of the system', act: () => properties('system') },
     null,
     { label: 'Another world…', words: 'open arena maze load', act: () => fileDialog.open('world') },
-    { label: 'Edit the world', words: 'walls floor light robot', disabled: !model.world, act: () => dock.openBeside({ kind: 'world' }, 'arena') },
+    { label: 'Edit the world', words: 'walls floor light robot', disabled: !model.world, act: () => dock.openWorld() },
     { label: 'Save the world', disabled: !worldFile.dirty, act: saveWorld },
     { label: 'Save the world as…', disabled: !worldFile.document, act: () => fileDialog.open('save the world') },
     null,

@@ -88,13 +88,16 @@ class Dock {
     if (frame.room === 'narrow') main?.api.setSize({ height });
   }
 
-  /** Shows the panels of a kept arrangement. A tutorial that is open stays, at its place in the text. */
-  restore(layout: SerializedDockview): void {
+  /** Shows the panels of a kept arrangement. A tutorial that is open stays, at its place in the text; one that was closed since then stays closed, unless it `returns`. */
+  restore(layout: SerializedDockview, returns = true): void {
+    this.api!.exitMaximizedGroup(); // dockview would keep the sizes of panels that are hidden
     const tutorial = this.of('tutorial')?.params as PanelState | undefined;
     for (const p of Object.values(layout.panels)) if (tutorial && kindOf(p) === 'tutorial') p.params = tutorial;
     withLeast(layout);
     this.api!.fromJSON(layout);
     if (tutorial && !this.find(tutorial)) this.openTutorial(tutorial);
+    const again = this.of('tutorial');
+    if (again && !tutorial && !returns) this.api!.removePanel(again);
   }
 
   /** The panel that a layout gives the first place. */
@@ -126,6 +129,7 @@ class Dock {
   /** Places the panels that are open as an earlier arrangement had them. What it does not have is opened beside the others. */
   spread(earlier: SerializedDockview): void {
     const api = this.api!;
+    api.exitMaximizedGroup();
     const open = api.panels.map((p) => p.params as PanelState), active = api.activePanel?.params as PanelState | undefined;
     const layout = structuredClone(earlier);
     for (const p of api.panels) if (layout.panels[p.id]) layout.panels[p.id]!.params = p.params;
@@ -137,10 +141,17 @@ class Dock {
     if (active) this.find(active)?.api.setActive();
   }
 
+  /** Opens the editor of the world, with room for its map and its form. */
+  openWorld(): void {
+    if (!this.openBeside({ kind: 'world' }, 'arena') || frame.small) return;
+    const { api } = this.of('world')!, all = this.api!;
+    api.setSize({ width: Math.max(api.width, Math.min(760, 0.62 * all.width)), height: Math.max(api.height, Math.min(620, 0.72 * all.height)) });
+  }
+
   /** Says that the arena or the diagram is closed, which no plot leads to, with the way back to its place. Called before it is closed. */
   sayClosed(p: IDockviewPanel): void {
     const panel = p.params as PanelState, layout = this.api!.toJSON();
-    if (!['arena', 'diagram'].includes(panel.kind)) return;
+    if (!['arena', 'diagram'].includes(panel.kind)) return actions.settle('closed'); // it would be about this one
     const back = () => {
       this.open(panel);
       this.spread(layout);

@@ -283,6 +283,37 @@ export default async function({ start, open, onDisk, faults, step }) {
   await until(page, 'two stacks', () => document.querySelectorAll('.dv-groupview').length === 2);
   assert.equal(await arrangement(), left);
 
+  step('a system whose panel was shown alone has all its panels when it is opened again; a tutorial that was closed stays closed');
+  const system = (name) => async () => {
+    await page.keyboard.press('Control+o');
+    await page.getByRole('dialog', { name: 'Open a system' }).getByRole('button', { name, exact: true }).first().click();
+    await page.keyboard.press('Enter');
+    await page.getByRole('dialog', { name: 'Open a system' }).waitFor({ state: 'detached' });
+  };
+  const here = system('dac_foraging.iqr'), there = system('sec_maze.iqr'), tutorial = page.getByRole('group', { name: 'Tutorial', exact: true });
+  const panels = (n) => until(page, `${n} stacks of panels`, (wanted) => document.title.startsWith('DAC') && document.querySelectorAll('.dv-groupview').length === wanted, n);
+  await here(); // its file has the path by which it is opened again
+  await panels(4);
+  await page.getByRole('button', { name: 'Tutorial', exact: true }).first().click();
+  await tutorial.waitFor();
+  await panels(5);
+  await there();
+  await until(page, 'the other system', () => !document.title.startsWith('DAC'));
+  await tutorial.waitFor();
+  await page.getByRole('button', { name: 'Tutorial', exact: true }).first().click();
+  await tutorial.waitFor({ state: 'detached' });
+  await here();
+  await panels(4);
+  assert.equal(await tutorial.count(), 0);
+  const withAll = await arrangement();
+  await go('Diagram');
+  await inMenu('Maximize');
+  await there();
+  await until(page, 'the other system', () => !document.title.startsWith('DAC'));
+  await here();
+  await panels(4);
+  assert.equal(await arrangement(), withAll);
+
   step('a layout that is there already is replaced only after a question');
   const kept = async () => readFileSync(await onDisk(page, 'systems/mine.layout.json'), 'utf8');
   await page.getByRole('button', { name: 'Layouts of the panels' }).press('Enter');
