@@ -172,7 +172,7 @@ export default async function({ site, start, open, faults, step }) {
   await page.getByRole('button', { name: 'Trials…' }).click();
   const trials = page.getByRole('group', { name: 'Trials' });
   await trials.getByLabel('Number of trials').fill('3');
-  await trials.getByRole('button', { name: 'Run', exact: true }).click();
+  await trials.getByRole('button', { name: 'Run for' }).click();
   await trials.getByText(/^\d of 3 reached the target: \d+\s% \(95\s% interval/).waitFor();
   await page.getByRole('group', { name: 'Run' }).getByRole('button', { name: 'Run', exact: true }).waitFor(); // it is paused
   assert.equal(await trials.locator('dd i').count(), 3);
@@ -186,12 +186,12 @@ export default async function({ site, start, open, faults, step }) {
   const condition = trials.getByLabel('or when');
   await trials.getByLabel('Number of trials').fill('1000');
   await condition.fill('trail 5');
-  await trials.getByRole('button', { name: 'Run', exact: true }).click();
+  await trials.getByRole('button', { name: 'Run for' }).click();
   const wrong = trials.getByRole('alert').filter({ hasText: 'trail' });
   await wrong.waitFor();
   assert.equal(await condition.getAttribute('aria-invalid'), 'true');
   await condition.fill('trial 5');
-  await trials.getByRole('button', { name: 'Run', exact: true }).click();
+  await trials.getByRole('button', { name: 'Run for' }).click();
   await wrong.waitFor({ state: 'detached' });
   await trials.getByText(/^\d of 4 reached the target/).waitFor();
   await page.getByRole('group', { name: 'Run' }).getByRole('button', { name: 'Run', exact: true }).waitFor();
