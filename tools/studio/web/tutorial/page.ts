@@ -1,7 +1,7 @@
 // Makes a page of the panel Tutorial from a file of docs/tutorial. Runs in the build; the page of the studio gets the HTML.
 import { Marked } from 'marked';
 import { formulas, greek } from './formula';
-import { readAsk, readCheck, type Check } from '../src/tutorial/checks';
+import { labelled, readAsk, readCheck, type Check } from '../src/tutorial/checks';
 import type { Setup } from '../src/tutorial/setup';
 
 export interface TutorialPage {
@@ -18,11 +18,11 @@ const panelKinds = ['space', 'time', 'raster', 'weights', 'wiring', 'camera', 'm
 
 /** Reads what a comment `<!-- studio ... -->` says: lines of a key, a colon and a value. */
 export function readSetup(text: string): Setup {
-  const setup: Setup = { system: '', world: '', set: [], clamp: [], speed: 1, seed: 1, window: 30, panels: [], diagram: '', large: '', choices: [], checks: [], say: '', steps: [] };
+  const setup: Setup = { title: '', system: '', world: '', set: [], clamp: [], speed: 1, seed: 1, window: 30, panels: [], diagram: '', large: '', choices: [], checks: [], say: '', steps: [] };
   for (const line of text.split('\n').map((l) => l.trim()).filter(Boolean)) {
     const [, key, value] = /^(\w+): *(.+)$/.exec(line) ?? [];
     if (!key || !value) throw new Error(`'${line}' is not a key, a colon and a value`);
-    if (key === 'system' || key === 'world' || key === 'diagram' || key === 'large') setup[key] = value;
+    if (key === 'title' || key === 'system' || key === 'world' || key === 'diagram' || key === 'large') setup[key] = value;
     else if (key === 'set' || key === 'clamp') setup[key].push(value);
     else if (key === 'speed') {
       setup.speed = value === 'max' ? 0 : Number(value);
@@ -86,11 +86,14 @@ function setupHtml(setup: Setup, number: number, questions: string): string {
         c.values.map((v) => `<button type="button" class="outlined" data-set="${escape(`${c.assignment}=${v}`)}" aria-label="${escape(`${c.assignment} = ${v}`)}" disabled>${escape(v)}</button>`).join('')
       }</div>`,
   );
-  return `<section class="setup" data-setup="${number}" aria-label="Set-up ${number + 1}"><button type="button" class="primary" data-open="${number}">Set it up</button><small>${escape(setup.system)} in ${escape(setup.world)}</small><p>${
-    inline(setup.say)
-  }</p>${setup.steps.length ? `<ol>${setup.steps.map((s) => `<li>${inline(s)}</li>`).join('')}</ol>` : ''}${choices.join('')}${questions}${setup.checks.length ? checksHtml : ''}</section>\n`;
+  return `<section class="setup" data-setup="${number}" aria-label="${escape(setup.title || `Set-up ${number + 1}`)}"><button type="button" class="primary" data-open="${number}">Set it up</button><small>${escape(setup.system)} in ${
+    escape(setup.world)
+  }</small><p>${inline(setup.say)}</p>${setup.steps.length ? `<ol>${setup.steps.map((s) => `<li>${inline(s)}</li>`).join('')}</ol>` : ''}${choices.join('')}${questions}${setup.checks.length ? checksHtml : ''}</section>\n`;
 }
-const checksHtml = '<div class="checks"><button type="button" class="outlined" data-check disabled>Check what I have seen</button><div role="status"><ul></ul></div></div>';
+const checksHtml =
+  '<div class="checks"><button type="button" class="outlined" data-check disabled>Check what I have seen</button> <button type="button" data-forget hidden>Clear answers and ticks</button><div role="status"><ul></ul></div></div>';
+/** The exercises of a page, which lead to their set-ups. */
+const listHtml = (setups: Setup[]) => (setups.length ? `<ol class="exercises" aria-label="Exercises">${setups.map((s, i) => `<li data-exercise="${i}"><a href="#${i}" data-to="${i}">${inline(s.title)}</a></li>`).join('')}</ol>\n` : '');
 const inline = (text: string) => new Marked({ renderer: { html: ({ text }) => escape(text) } }).parseInline(text) as string;
 
 /** `id` is the name of the file without `.md`, `ids` those of all pages. Throws when the text has HTML that is not known here. */
@@ -98,14 +101,21 @@ export function makePage(id: string, markdown: string, ids: string[]): TutorialP
   const page: TutorialPage = { id, title: '', html: '', setups: [], pictures: [] };
   const { text: body, questions } = takeQuestions(markdown);
   let folded = 0;
+  /** The last heading, or question, which names the set-ups behind it that have no title. */
+  let heading = '';
   // Formulas have letters where parameters have names: the first mention of a name says which.
   const named = new Set<string>();
   const marked = new Marked({
     renderer: {
-      heading({ tokens, depth }) {
+      heading({ tokens, depth, text: words }) {
         const text = this.parser.parseInline(tokens);
         if (depth === 1) page.title = text;
+        heading = words;
         return `<h${depth + 1}>${text}</h${depth + 1}>\n`;
+      },
+      paragraph({ tokens, text }) {
+        heading = /^\*\*(Q\d[^]*?[?.:](?= |\*\*|$)[^]*?\?)/.exec(text)?.[1]?.replaceAll('\n', ' ') ?? heading;
+        return `<p>${this.parser.parseInline(tokens)}</p>\n`;
       },
       html({ text }) {
         const html = text.trim();
@@ -113,7 +123,8 @@ export function makePage(id: string, markdown: string, ids: string[]): TutorialP
         if (setup) {
           if (folded) throw new Error(`${id}: a set-up stands outside of what is folded`);
           const number = page.setups.length, read = readSetup(setup[1]!), asked = questions[number]!;
-          read.checks.unshift(...asked.map((q) => q.check));
+          read.checks = labelled([...asked.map((q) => q.check), ...read.checks]);
+          read.title ||= heading;
           page.setups.push(read);
           return setupHtml(read, number, asked.map((q) => q.html).join(''));
         }
@@ -151,13 +162,14 @@ export function makePage(id: string, markdown: string, ids: string[]): TutorialP
         if (set) return set;
         const code = `<pre tabindex="0"><code>${escape(text)}</code></pre>`;
         if (lang !== 'sh') return `${code}\n`;
-        return `<details class="shell"><summary>In a shell: <code>${escape(text.split('\n')[0]!.replace('build/release/bin/', ''))}</code></summary>${code}</details>\n`;
+        return `<details class="shell"><summary>In a shell</summary>${code}</details>\n`;
       },
     },
   });
   const html = marked.parse(body) as string;
   // What is for a shell or a text editor is folded: here one has the studio.
   const asides = html.replace(/<!--(.*?)-->\n?(<p>[\s\S]*?<\/p>)/g, '<details class="shell"><summary>$1</summary>$2</details>');
-  page.html = asides.replace(/<table>/g, '<div class="table" tabindex="0"><table>').replace(/<\/table>/g, '</table></div>');
+  const listed = asides.replace('</h2>\n', () => `</h2>\n${listHtml(page.setups)}`);
+  page.html = listed.replace(/<table>/g, '<div class="table" tabindex="0"><table>').replace(/<\/table>/g, '</table></div>');
   return page;
 }

@@ -1,4 +1,4 @@
-// What an exercise expects to be seen or answered, and what a run says of it in words. Set-ups declare it: `check: hits 0.7 to 1 of 12 trials with P.x = 1`,
+// What an exercise expects to be seen or answered, and what a run says of it in words. Set-ups declare it: `check: hits 0.83 ± 0.03 of 12 trials with P.x = 1`,
 // and comments in front of questions: `ask: misses of 12 trials with P.x = 1; Trials counts them`.
 
 /** The last trials of so many. */
@@ -10,9 +10,12 @@ interface Counted {
 export interface Check {
   /** "Adaptive.eta=0.02" */
   given: string[];
-  /** A share of trials that reach the target, between `low` and `high`. */
-  hits?: Counted & { low: number; high: number };
-  seen?: { words: string; condition: string };
+  /** The same in few words, where the exercise has other values, too: "eta = 0.02". */
+  label?: string;
+  /** The share of trials that reach the target in the solution, and its standard deviation. */
+  hits?: Counted & { share: number; deviation: number };
+  /** What is to be done, which does not say what is found, and what holds when it is done. */
+  seen?: { task: string; condition: string };
   /** Seconds of the world since the last change. */
   lasts?: number;
   /** A question in the text, and where to look for its answer. */
@@ -42,16 +45,16 @@ function readGiven(text: string): { what: string; given: string[] } {
 /** Reads what stands behind `check:`. Throws for other texts. */
 export function readCheck(text: string): Check {
   const { what, given } = readGiven(text);
-  const [, from, to, of] = /^hits (\S+) to (\S+) (of .+)$/.exec(what) ?? [], counted = of && readCounted(of);
+  const [, mean, deviation = '0', of] = /^hits (\S+) (?:± (\S+) )?(of .+)$/.exec(what) ?? [], counted = of && readCounted(of);
   if (counted) {
-    const low = Number(from), high = Number(to);
-    if (!(low >= 0 && low < high && high <= 1)) throw new Error(`'${text}' has no shares, the lower one first, between 0 and 1`);
-    return { given, hits: { low, high, ...counted } };
+    const hits = { share: Number(mean), deviation: Number(deviation), ...counted };
+    if (!(hits.share >= 0 && hits.share <= 1 && hits.deviation >= 0)) throw new Error(`'${text}' has no share of hits between 0 and 1`);
+    return { given, hits };
   }
   if (/^\d+ s$/.test(what)) return { given, lasts: parseInt(what) };
-  const [, words, condition] = /^(.+?) when (.+)$/.exec(what) ?? [];
-  if (!words || !condition) throw new Error(`'${text}' is neither 'hits LOW to HIGH of N trials', 'N s' nor 'WORDS when CONDITION'`);
-  return { given, seen: { words, condition } };
+  const [, task, condition] = /^(.+?) when (.+)$/.exec(what) ?? [];
+  if (!task || !condition) throw new Error(`'${text}' is neither 'hits SHARE ± DEVIATION of N trials', 'N s' nor 'TASK when CONDITION'`);
+  return { given, seen: { task, condition } };
 }
 
 /** Reads what stands behind `ask:`. Throws for other texts. */
@@ -68,6 +71,18 @@ export function readAsk(text: string): Check {
   return asked({ quantity, within: Number(within), when });
 }
 
+/** Gives the checks of an exercise their labels: what tells their values apart, without the names of items where parameters suffice. */
+export function labelled(checks: Check[]): Check[] {
+  const common = (g: string) => checks.every((c) => !c.given.length || c.given.includes(g));
+  return checks.map((check) => {
+    const own = check.given.filter((g) => !common(g)), some = own.length ? own : check.given;
+    if (!some.length) return check;
+    const parts = some.map((g) => /^(?:.*\/)?([^/]*)\.([^.]+)=(.*)$/.exec(g) ?? [g, '', g, '']);
+    const name = ([, item, parameter]: string[]) => (parts.filter((p) => p[2] === parameter).length > 1 ? `${item}.${parameter}` : parameter);
+    return { ...check, label: parts.map((p) => `${name(p)} = ${p[3]}`).join(', ') };
+  });
+}
+
 /** `right` is null while nothing can be said; `looked` stays true once something could. */
 export interface Finding {
   right: boolean | null;
@@ -75,68 +90,65 @@ export interface Finding {
   looked?: boolean;
   /** What was answered. */
   answer?: string | undefined;
+  /** What is said instead while the text would answer a question. */
+  held?: string | undefined;
 }
 
 const percent = (share: number) => `${Math.round(100 * share)} %`;
-const assigned = (given: string[]) => (given.length ? `With ${given.map((g) => g.replace('=', ' = ')).join(' and ')}: ` : '');
-/** As the start of a sentence, or after a colon. */
-const begun = (given: string[], rest: string) => (given.length ? assigned(given) + rest : rest[0]!.toUpperCase() + rest.slice(1));
+const counted = (number: number, what: 'hits' | 'misses') => `${number} ${number === 1 ? { hits: 'hit', misses: 'miss' }[what] : what}`;
+/** Behind the values of the check, or as a sentence of its own. */
+const said = ({ label }: Check, rest: string) => (label ? `${label}: ${rest}` : rest[0]!.toUpperCase() + rest.slice(1));
 
-/** What is said of a check before its values were tried. */
-export const untried = ({ given }: Check): Finding => ({ right: null, text: begun(given, 'not tried yet.') });
+/** What is still to be done, without a word about what is expected. */
+export function toDo(check: Check): Finding {
+  const { hits, lasts, seen } = check;
+  const task = hits ? `run ${hits.trials} trials, then check` : lasts ? `run ${lasts} s` : seen ? seen.task : 'not tried yet';
+  return { right: null, text: said(check, `${task}.`) };
+}
 
 /** What is said while too few trials have finished; undefined when there are enough. */
 const wanting = ({ trials }: Counted, reached: boolean[]) => (reached.length < trials ? `${reached.length} of ${trials} trials have finished. Run the others, then check again.` : undefined);
 
 /** Those that a check is about. */
 const countedIn = ({ last, trials }: Counted, reached: boolean[]) => reached.slice(0, trials).slice(-last);
+const inTrials = ({ last, trials }: Counted) => `in ${last === trials ? '' : 'the last '}${last} trials`;
 
 /** What trials, in their order, say: whether each of them reached the target. `learned` is whether a change came before them, but no start. */
-export function findHits({ given, hits }: Check, reached: boolean[], learned = false): Finding {
-  const { low, high, last, trials } = hits!, more = wanting(hits!, reached);
-  if (more) return { right: null, text: begun(given, more) };
-  const counted = countedIn(hits!, reached), misses = counted.filter((hit) => !hit).length, share = 1 - misses / last;
-  const seen = `you have seen ${misses} ${misses === 1 ? 'miss' : 'misses'} in ${last === trials ? '' : 'the last '}${last} trials (${percent(1 - share)})`;
-  const expected = `the text expects ${percent(1 - high)} to ${percent(1 - low)}`;
-  const right = share >= low && share <= high;
-  return {
-    right,
-    text: begun(
-      given,
-      right
-        ? `${seen}: right, ${expected}.`
-        : `${seen}, but ${expected}. ${
-          learned ? 'These trials began with what was learned before: if the text does not say so, press Stop, and run them again.' : 'Is all as the text asks for? If so, it may be chance: repeat it with another seed.'
-        }`,
-    ),
-  };
+export function findHits(check: Check, reached: boolean[], learned = false): Finding {
+  const { share, deviation, last } = check.hits!, more = wanting(check.hits!, reached);
+  if (more) return { right: null, text: said(check, more) };
+  const hits = countedIn(check.hits!, reached).filter((hit) => hit).length;
+  const seen = `you have seen ${counted(hits, 'hits')} ${inTrials(check.hits!)} (${percent(hits / last)})`;
+  const expected = `the solution has ${deviation ? `${Math.round(100 * share)} ± ${percent(deviation)}` : percent(share)}`;
+  // Two standard deviations: those of other seeds, or those that chance has in so few trials.
+  const right = Math.abs(hits / last - share) <= 2 * Math.max(deviation, Math.sqrt((share * (1 - share)) / last), 0.05) + 1e-9;
+  const advice = learned ? 'These trials began with what was learned before: if the text does not say so, press Stop, and run them again.' : 'Is all as the text asks for? If so, it may be chance: repeat it with another seed.';
+  return { right, text: said(check, right ? `${seen}: right, ${expected}.` : `${seen}, but ${expected}. ${advice}`) };
 }
 
 /** Whether the condition of a check holds now. */
-export const findSeen = ({ given, seen }: Check, holds: boolean): Finding => ({ right: holds || null, text: begun(given, holds ? `right, ${seen!.words}.` : `not yet that ${seen!.words}.`) });
+export const findSeen = (check: Check, holds: boolean): Finding => ({ ...toDo(check), right: holds || null });
 
 /** Whether the run has lasted, since the last change. */
-export const findLasting = ({ given, lasts }: Check, seconds: number): Finding =>
-  seconds >= lasts! ? { right: true, text: begun(given, `right, you have seen ${lasts} s.`) } : { right: null, text: begun(given, `${Math.floor(seconds)} of ${lasts} s have passed. Run the others, then check again.`) };
+export const findLasting = (check: Check, seconds: number): Finding =>
+  seconds >= check.lasts! ? { ...toDo(check), right: true } : { right: null, text: said(check, `${Math.floor(seconds)} of ${check.lasts} s have passed. Run the others, then check again.`) };
 
 /** What is said of an answer; a wrong one learns where to look. */
-const answered = ({ given, asked }: Check, answer: string, right: boolean, seen = ''): Finding => ({ right, text: begun(given, `you said ${answer}${right ? `${seen}: right.` : `, and it is not so. Look again: ${asked!.look}.`}`) });
+const answered = (check: Check, answer: string, right: boolean, seen = ''): Finding => ({ right, text: said(check, `you said ${answer}${right ? `${seen}: right.` : `, and it is not so. Look again: ${check.asked!.look}.`}`) });
 
 /** What trials say of a number that was counted. */
-export function findCount(check: Check & { asked: { count: Counted & { what: string } } }, answer: number, reached: boolean[]): Finding {
+export function findCount(check: Check & { asked: { count: Counted & { what: 'hits' | 'misses' } } }, answer: number, reached: boolean[]): Finding {
   const { count } = check.asked, more = wanting(count, reached);
-  if (more) return { right: null, text: begun(check.given, `you said ${answer}. ${more}`) };
-  const found = countedIn(count, reached).filter((hit) => hit === (count.what === 'hits')).length, one = count.what === 'hits' ? 'hit' : 'miss';
-  return answered(check, String(answer), answer === found, `, it was ${found} ${found === 1 ? one : count.what} in ${count.last === count.trials ? '' : 'the last '}${count.last} trials`);
+  if (more) return { right: null, text: said(check, `you said ${answer}. ${more}`) };
+  const found = countedIn(count, reached).filter((hit) => hit === (count.what === 'hits')).length;
+  return answered(check, String(answer), answer === found, `, it was ${counted(found, count.what)} ${inTrials(count)}`);
 }
 
 /** What is said of a number, once its condition has held. */
 export const findNumber = (check: Check, answer: number, right: boolean): Finding => answered(check, String(answer), right);
 
-/** What is said of a choice, once all else that the exercise expects was looked at. */
-export const findChoice = (
-  check: Check,
-  answer: string,
-  right: boolean,
-  looked: boolean,
-): Finding => (looked ? answered(check, `“${answer}”`, right) : { right: null, text: `You said “${answer}”. It is judged after the other lines of this list.` });
+/** What is said of a choice, once what it is about was looked at. */
+export function findChoice(check: Check, answer: string, right: boolean, looked: boolean): Finding {
+  const prediction = { ...check, label: '' };
+  return looked ? answered(prediction, `“${answer}”`, right) : { right: null, text: `You said “${answer}”. It is judged after the other lines of this list${check.label ? ` about ${check.label}` : ''}.` };
+}

@@ -18,6 +18,8 @@ export interface PanelSetup {
   scale?: [number, number];
 }
 export interface Setup {
+  /** What the list of exercises calls it. */
+  title: string;
   /** Files below the folder of systems that come with Forage, and below its worlds. */
   system: string;
   world: string;

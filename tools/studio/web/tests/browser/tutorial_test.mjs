@@ -95,6 +95,13 @@ export default async function({ site, folder, start, open, faults, step }) {
   await page.getByRole('application', { name: 'Cells of Allostasis/Needs' }).focus();
   for (let i = 0; i < 2; i++) await page.keyboard.press('ArrowRight'); // the first press shows the first cell
   await page.getByRole('group', { name: 'Space plot of Allostasis/Needs' }).getByText('hydration (2, 1)').waitFor();
+  await page.getByLabel('Seconds of the world').fill('4');
+  await page.getByLabel('Seconds of the world').press('Enter');
+  await page.getByText('4.04 s (cycle 101)').waitFor();
+  await until(page, 'the mean of each trace, of what the plot shows', () => {
+    const means = [...document.querySelectorAll('.key .mean')].map((m) => m.textContent);
+    return means.length === 3 && means.every((m) => /^mean 0\.\d+$/.test(m));
+  });
 
   step('an exercise says in words whether what was seen is right, when it is asked');
   await tutorial.getByRole('button', { name: '2', exact: true }).click();
@@ -102,7 +109,7 @@ export default async function({ site, folder, start, open, faults, step }) {
   assert.ok(await reflex.getByRole('button', { name: 'Check what I have seen' }).isDisabled());
   await reflex.getByRole('button', { name: 'Set it up' }).click();
   await reflex.and(tutorial.locator('.active')).waitFor();
-  assert.equal(await reflex.getByRole('listitem').count(), 0);
+  assert.deepEqual(await reflex.getByRole('listitem').allTextContents(), ['Run 30 trials, then check.']); // what is expected is not seen before
   await reflex.getByRole('button', { name: 'Check what I have seen' }).click();
   await reflex.getByText('0 of 30 trials have finished. Run the others, then check again.').waitFor();
   await reflex.getByText('Not answered yet: the robot explores until').waitFor();
@@ -110,13 +117,13 @@ export default async function({ site, folder, start, open, faults, step }) {
   await reflex.getByRole('button', { name: 'Check what I have seen' }).click();
   await reflex.getByText('You said “From all three starts”. It is judged after the other lines of this list.').waitFor();
   await page.getByRole('button', { name: 'Max', exact: true }).click();
-  await page.getByRole('group', { name: 'Trials' }).getByRole('button', { name: 'Run', exact: true }).click();
+  await page.getByRole('group', { name: 'Trials' }).getByRole('button', { name: 'Run for' }).click();
   await page.getByText('14 of 30 reached the target').waitFor();
   await page.getByRole('button', { name: 'Run', exact: true }).first().waitFor();
   const check = reflex.getByRole('button', { name: 'Check what I have seen' });
   await check.evaluate((button) => button.scrollIntoView({ block: 'end' }));
   await check.click();
-  const answer = reflex.getByText('You have seen 16 misses in 30 trials (53 %): right, the text expects 30 % to 80 %.');
+  const answer = reflex.getByText('You have seen 14 hits in 30 trials (47 %): right, the solution has 47 %.');
   await answer.waitFor();
   await reflex.getByText('You said “From all three starts”, and it is not so. Look again: the boxes of Trials, by start.').waitFor();
   await reflex.getByLabel('Mostly from the middle.').check();
@@ -133,13 +140,44 @@ export default async function({ site, folder, start, open, faults, step }) {
   await rates.getByRole('button', { name: 'Set it up' }).click();
   await rates.getByRole('button', { name: 'Adaptive.eta = 0.02' }).and(page.locator('[aria-pressed="true"]')).waitFor();
   await page.getByRole('button', { name: 'Max', exact: true }).click();
-  await page.getByRole('group', { name: 'Trials' }).getByRole('button', { name: 'Run', exact: true }).click();
+  await page.getByRole('group', { name: 'Trials' }).getByRole('button', { name: 'Run for' }).click();
   await page.getByText('10 of 12 reached the target').waitFor();
-  for (const [said, found] of [['3', 'you said 3, and it is not so. Look again: Trials, where a pale box is a miss.'], ['2', 'you said 2, it was 2 misses in 12 trials: right.']]) {
+  for (const [said, found] of [['3', 'you said 3, and it is not so. Look again: Trials, where a filled box is a hit.'], ['10', 'you said 10, it was 10 hits in 12 trials: right.']]) {
     await number.fill(said);
     await rates.getByRole('button', { name: 'Check what I have seen' }).click();
-    await rates.getByText(`With Adaptive.eta = 0.02: ${found}`).waitFor();
+    await rates.getByText(`eta = 0.02: ${found}`).waitFor();
   }
+
+  step('answers and ticks are kept while other exercises are set up, and in another visit, until they are cleared; the list of exercises shows what is done');
+  const listed = tutorial.getByRole('list', { name: 'Exercises' }).getByRole('listitem'), lines = () => rates.locator('.checks li').allTextContents();
+  for (const eta of ['0.005', '0']) {
+    await page.getByRole('button', { name: 'Stop', exact: true }).click();
+    await page.getByText('No trial has finished yet.').waitFor();
+    await rates.getByRole('button', { name: `Adaptive.eta = ${eta}`, exact: true }).click();
+    await rates.getByRole('button', { name: `Adaptive.eta = ${eta}`, exact: true }).and(page.locator('[aria-pressed="true"]')).waitFor();
+    await page.getByRole('group', { name: 'Trials' }).getByRole('button', { name: 'Run for' }).click();
+    await page.getByText('of 12 reached the target').waitFor();
+    await rates.getByRole('button', { name: 'Check what I have seen' }).click();
+    await rates.locator('li.right', { hasText: `eta = ${eta}:` }).waitFor();
+  }
+  await listed.and(tutorial.locator('.done')).filter({ hasText: 'Exercise 1' }).waitFor();
+  const found = await lines();
+  await tutorial.locator('[data-open="3"]').click();
+  await tutorial.locator('.setup.active [data-open="3"]').waitFor();
+  assert.deepEqual(await tutorial.locator('[data-setup="3"] .checks li').allTextContents(), ['eta = 0.1: run until the discrepancy is below 0.1.', 'eta = 0.01: run until the discrepancy is below 0.1.']);
+  assert.deepEqual([await lines(), await number.inputValue()], [found, '10']);
+  await page.reload();
+  await number.waitFor();
+  assert.deepEqual([await lines(), await number.inputValue()], [found, '10']);
+  await rates.getByRole('button', { name: 'Clear answers and ticks' }).click();
+  await rates.getByRole('listitem').first().waitFor({ state: 'detached' });
+  assert.equal(await number.inputValue(), '');
+  assert.equal(await listed.and(tutorial.locator('.done')).count(), 0);
+  await rates.getByRole('button', { name: 'Set it up' }).click();
+  await rates.and(tutorial.locator('.active')).waitFor();
+  await page.getByRole('button', { name: 'Max', exact: true }).click();
+  await page.getByRole('group', { name: 'Trials' }).getByRole('button', { name: 'Run for' }).click();
+  await page.getByText('10 of 12 reached the target').waitFor();
 
   step('the trials of the run before stay in sight, and the last ones are counted');
   await page.getByRole('button', { name: 'Stop', exact: true }).click();
@@ -211,14 +249,14 @@ export default async function({ site, folder, start, open, faults, step }) {
     await drive.getByRole('button', { name: 'Send again' }).click();
     await page.getByRole('button', { name: 'Step one cycle' }).click();
     await page.getByRole('button', { name: 'Step one cycle' }).click();
-    await hand.getByText(found).waitFor();
+    await hand.locator('li.right', { hasText: found }).waitFor();
   };
-  await hand.getByText('Not yet that it drives backwards.').waitFor();
-  await driven(['Home'], 'Right, the robot turns to its left.');
-  await driven(['End'], 'Right, it drives backwards.');
+  await hand.locator('li.open', { hasText: 'Make it drive backwards.' }).waitFor();
+  await driven(['Home'], 'Make the robot turn to its left.');
+  await driven(['End'], 'Make it drive backwards.');
   await hand.getByRole('button', { name: 'Check what I have seen' }).click();
   await hand.getByText('You said “It turns to the right on the spot”. It is judged after the other lines of this list.').waitFor();
-  await driven(['End', ...Array(4).fill('ArrowUp')], 'Right, cell (9, 5) drives it.');
+  await driven(['End', ...Array(4).fill('ArrowUp')], 'Drive it by the cell (9, 5) alone.');
   // What was seen is over when it is asked.
   await drive.getByRole('button', { name: 'Clear' }).click();
   await drive.getByRole('button', { name: 'Send again' }).click();

@@ -1,45 +1,53 @@
 import { describe, expect, it } from 'vitest';
-import { findChoice, findCount, findHits, findLasting, findSeen, readAsk, readCheck, untried } from '../../src/tutorial/checks';
+import { findChoice, findCount, findHits, findLasting, findSeen, labelled, readAsk, readCheck, toDo } from '../../src/tutorial/checks';
 import { lastChange, type Done } from '../../src/draw/trials';
 
 const run = (text: string) => [...text].map((c) => c === '+');
 
 describe('a check', () => {
-  it('is a share of hits, or a condition in words, with the values of parameters', () => {
-    expect(readCheck('hits 0.7 to 1 of 12 trials with Adaptive.eta = 0.02')).toEqual({ given: ['Adaptive.eta=0.02'], hits: { low: 0.7, high: 1, last: 12, trials: 12 } });
-    expect(readCheck('hits 0 to 0.5 of the last 50 of 350 trials with A/B.excGain = 0, C.Trigger Reset = 1')).toEqual({
+  it('is a share of hits, or a task with its condition, with the values of parameters', () => {
+    expect(readCheck('hits 0.83 ± 0.03 of 12 trials with Adaptive.eta = 0.02')).toEqual({ given: ['Adaptive.eta=0.02'], hits: { share: 0.83, deviation: 0.03, last: 12, trials: 12 } });
+    expect(readCheck('hits 0.5 of the last 50 of 350 trials with A/B.excGain = 0, C.Trigger Reset = 1')).toEqual({
       given: ['A/B.excGain=0', 'C.Trigger Reset=1'],
-      hits: { low: 0, high: 0.5, last: 50, trials: 350 },
+      hits: { share: 0.5, deviation: 0, last: 50, trials: 350 },
     });
-    expect(readCheck('the robot turns when max(Bug/Motor(1..4,1)) > 0.5 and cycle > 100')).toEqual({ given: [], seen: { words: 'the robot turns', condition: 'max(Bug/Motor(1..4,1)) > 0.5 and cycle > 100' } });
+    expect(readCheck('make it turn when max(Bug/Motor(1..4,1)) > 0.5 and cycle > 100')).toEqual({ given: [], seen: { task: 'make it turn', condition: 'max(Bug/Motor(1..4,1)) > 0.5 and cycle > 100' } });
   });
-  it.each([['hits 0.7 of 12 trials', 'neither'], ['hits 0.9 to 0.1 of 9 trials', 'lower one first'], ['hits 0 to 1 of the last 9 of 5 trials', 'no trials'], ['hits 0 to 1 of 5 trials with eta', 'a parameter']])(
+  it.each([['hits of 12 trials', 'neither'], ['hits 1.1 of 9 trials', 'no share'], ['hits 1 of the last 9 of 5 trials', 'no trials'], ['hits 1 of 5 trials with eta', 'a parameter']])(
     'is refused: %j',
     (text, message) => expect(() => readCheck(text)).toThrow(message),
   );
-  it('counts misses, and says what the text expects only when there are enough trials', () => {
-    const check = readCheck('hits 0.7 to 1 of 12 trials');
+  it('is a task until it was tried, which does not say what is found', () => {
+    const tasks = ['hits 0.83 ± 0.03 of 12 trials with P.x = 1', 'hits 0.83 of 12 trials', '600 s with P.x = 1', 'find a region when max(A/B) > 0.1'];
+    expect(labelled(tasks.map(readCheck)).map((c) => toDo(c).text)).toEqual(['x = 1: run 12 trials, then check.', 'Run 12 trials, then check.', 'x = 1: run 600 s.', 'Find a region.']);
+  });
+  it('names what tells its values from those of the others', () => {
+    const label = (...texts: string[]) => labelled(texts.map((t) => readCheck(`60 s with ${t}`))).map((c) => c.label);
+    expect(label('A/B.gain = 0, A/C.gain = 0, D.%-WTA = 0.8', 'A/B.gain = 0, A/C.gain = 0, D.%-WTA = 0.9')).toEqual(['%-WTA = 0.8', '%-WTA = 0.9']);
+    expect(label('A/B.gain = 0, A/C.gain = 0')).toEqual(['B.gain = 0, C.gain = 0']);
+  });
+  it('counts hits, and says what the solution has only when there are enough trials', () => {
+    const check = readCheck('hits 0.83 ± 0.03 of 12 trials');
     expect(findHits(check, run('-+++'))).toEqual({ right: null, text: '4 of 12 trials have finished. Run the others, then check again.' });
     expect(findHits(check, run('-++++-++++++---')).right).toBe(true); // of the first twelve
     expect(findHits(check, run('-'.repeat(12)), true).text).toMatch(/press Stop/);
-    expect(findHits(check, run('-++++-++++++'))).toEqual({ right: true, text: 'You have seen 2 misses in 12 trials (17 %): right, the text expects 0 % to 30 %.' });
-    expect(findHits(check, run('------++++++')).right).toBe(false);
+    expect(findHits(check, run('-++++-++++++'))).toEqual({ right: true, text: 'You have seen 10 hits in 12 trials (83 %): right, the solution has 83 ± 3 %.' });
+    expect(findHits(check, run('------++++++'))).toMatchObject({ right: false, text: expect.stringMatching(/^You have seen 6 hits in 12 trials \(50 %\), but the solution has 83 ± 3 %\. Is all as/) });
   });
-  it('looks at the last trials of many, with the values that were tried', () => {
-    const check = readCheck('hits 0.9 to 1 of the last 2 of 4 trials with P.x = 1');
-    expect(untried(check)).toEqual({ right: null, text: 'With P.x = 1: not tried yet.' });
-    expect(findHits(check, run('--+++')).text).toBe('With P.x = 1: you have seen 0 misses in the last 2 trials (0 %): right, the text expects 0 % to 10 %.');
+  it('looks at the last trials of many', () => {
+    const [check] = labelled([readCheck('hits 1 of the last 2 of 4 trials with P.x = 1')]);
+    expect(findHits(check!, run('--+++')).text).toBe('x = 1: you have seen 2 hits in the last 2 trials (100 %): right, the solution has 100 %.');
   });
-  it('says whether a condition holds', () => {
-    const check = readCheck('a region stands out when max(A/B) > 0.1');
-    expect(findSeen(check, true)).toEqual({ right: true, text: 'Right, a region stands out.' });
-    expect(findSeen(check, false)).toEqual({ right: null, text: 'Not yet that a region stands out.' });
+  it('ticks a task whose condition holds', () => {
+    const check = readCheck('find a region when max(A/B) > 0.1');
+    expect(findSeen(check, true)).toEqual({ right: true, text: 'Find a region.' });
+    expect(findSeen(check, false)).toEqual({ right: null, text: 'Find a region.' });
   });
   it('says whether the run has lasted since the last change', () => {
-    const check = readCheck('600 s with P.x = 1');
-    expect(check).toEqual({ given: ['P.x=1'], lasts: 600 });
-    expect(findLasting(check, 599.9)).toEqual({ right: null, text: 'With P.x = 1: 599 of 600 s have passed. Run the others, then check again.' });
-    expect(findLasting(check, 600)).toMatchObject({ right: true });
+    const check = readCheck('600 s');
+    expect(check).toEqual({ given: [], lasts: 600 });
+    expect(findLasting(check, 599.9)).toEqual({ right: null, text: '599 of 600 s have passed. Run the others, then check again.' });
+    expect(findLasting(check, 600)).toEqual({ right: true, text: 'Run 600 s.' });
   });
 });
 
@@ -63,6 +71,8 @@ describe('a question', () => {
     const check = readAsk('choice 2; the plot');
     expect(findChoice(check, 'later', true, false)).toEqual({ right: null, text: 'You said “later”. It is judged after the other lines of this list.' });
     expect(findChoice(check, 'later', true, true).right).toBe(true);
+    expect(findChoice({ ...check, label: 'x = 1' }, 'later', true, false).text).toBe('You said “later”. It is judged after the other lines of this list about x = 1.');
+    expect(findChoice({ ...check, label: 'x = 1' }, 'later', true, true).text).toBe('You said “later”: right.');
     expect(findChoice(check, 'later', false, true).text).toBe('You said “later”, and it is not so. Look again: the plot.');
   });
 });

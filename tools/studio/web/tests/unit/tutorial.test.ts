@@ -44,6 +44,7 @@ describe('pages of the tutorial', () => {
   it('have a button for each comment that sets something up', () => {
     const made = page('<!-- studio\nsystem: a.iqr\nworld: b.world\nset: P.x=1\nspeed: max\nchoose: P.y = 0 0.5\nspace: P/G\nsay: Press *Run* <now>.\nstep: First *this*.\nstep: Then that.\n-->\n\n<!-- made by: x -->\n');
     expect(made.setups).toEqual([{
+      title: '',
       system: 'a.iqr',
       world: 'b.world',
       set: ['P.x=1'],
@@ -95,7 +96,7 @@ describe('pages of the tutorial', () => {
     expect([setup.seed, setup.window]).toEqual([3, 600]);
   });
   it('have a button that checks what was seen, once the exercise is set up', () => {
-    const made = page('<!-- studio\nsystem: a\nworld: b\nspace: P/G\nlarge: arena\nseconds: 600\ncheck: hits 0.5 to 1 of 9 trials\n-->\n');
+    const made = page('<!-- studio\nsystem: a\nworld: b\nspace: P/G\nlarge: arena\nseconds: 600\ncheck: hits 0.5 of 9 trials\n-->\n');
     expect(made.setups[0]).toMatchObject({ large: 'arena', panels: [{ kind: 'space' }, { kind: 'trials', item: '600', key: 'seconds' }], checks: [{ hits: { trials: 9 } }] });
     expect(made.html).toContain('data-check disabled>Check what I have seen</button>');
   });
@@ -113,6 +114,11 @@ describe('pages of the tutorial', () => {
     expect(() => withQuestion('hits of 5 trials; the boxes')).toThrow('does not fit the list');
     expect(() => page('<!-- ask: choice 1; x -->\nWhich?\n\n- one\n')).toThrow('no set-up');
   });
+  it('list their exercises, called by a title, or by the question or the heading above', () => {
+    const one = '<!-- studio\nsystem: a\nworld: b\nspace: P/G\n-->\n\n', { html } = page(`# T\n\n## Exercise 1: *it*\n\n${one}**Q1, Q2. What is it?\nWrite.** Or?\n\n${one}Some text.\n\n${one.replace('system', 'title: Again\nsystem')}`);
+    expect(html).toMatch(/^<h2>T<\/h2>\n<ol class="exercises"/);
+    expect([...html.matchAll(/<li data-exercise="(\d)"><a href="#\d" data-to="\d">(.*?)<\/a>/g)].map((m) => m.slice(1))).toEqual([['0', 'Exercise 1: <em>it</em>'], ['1', 'Q1, Q2. What is it?'], ['2', 'Again']]);
+  });
   it('refuse a set-up that would be folded away', () => expect(() => page('<details><summary>S</summary>\n\n<!-- studio\nsystem: a\nworld: b\nspace: P/G\n-->\n\n</details>')).toThrow('outside'));
 });
 
@@ -122,7 +128,29 @@ describe('docs/tutorial', () => {
     expect(pages.map((p) => p.id.split('-')[0])).toEqual([...pages.keys()].slice(1).map(String).concat('appendix'));
     for (const p of pages.slice(0, 6)) expect(p.setups.length, p.id).toBeGreaterThanOrEqual(3);
     for (const p of pages) expect(p.html).not.toContain('src="picture:');
+    for (const { setups } of pages) expect(new Set(setups.map((s) => s.title)).size).toBe(setups.length);
     expect(pages[0]!.html).toMatch(/<img src="[^"]*1-basic-arena\.png"/);
+  });
+});
+
+describe('what exercises expect', async () => {
+  const { pages } = await import('virtual:tutorial');
+  const checks = pages.flatMap((p) => p.setups.flatMap((s) => s.checks.map((check) => ({ page: p, setup: s, check }))));
+  it('of hits, stands in the text', () => {
+    const counted = checks.filter(({ check }) => check.hits && check.hits.deviation > 0);
+    expect(counted.length).toBeGreaterThan(20);
+    for (const { page: { html, title }, check: { hits } } of counted) {
+      const written = (v: number) => String(v).replace('.', '\\.');
+      expect(html, `${title}: ${hits!.share}`).toMatch(new RegExp(`${written(hits!.share)}0* ± ${written(hits!.deviation)}0*\\b`));
+    }
+  });
+  it('reads as a task, which says nothing of what is found', () => {
+    for (const { setup, check } of checks)
+      if (check.seen) expect(check.seen.task, setup.title).toMatch(/^(drive|find|let|make|run) [^%]*$/);
+  });
+  it('is judged with values that its buttons choose', () => {
+    for (const { setup, check } of checks)
+      for (const given of check.given) expect(setup.choices.some((c) => c.values.some((v) => given === `${c.assignment}=${v}`)), `${setup.title}: ${given}`).toBe(true);
   });
 });
 
