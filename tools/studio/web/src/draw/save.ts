@@ -127,9 +127,9 @@ export function linesSvg(x: ArrayLike<number>, lines: { label: string; colour: s
     return [right - wide, above] as const;
   });
   const keys = lines.map((l, i) => `<text x="${places[i]![0]}" y="${14 + 14 * (places[i]![1] - above)}" fill="${l.colour}">${escape(l.label)}</text>`);
-  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 ${-14 * above} ${width} ${height + 14 * above}" font-family="sans-serif" font-size="11">${keys.join('')}<text x="4" y="26">${high.toPrecision(3)}</text><text x="4" y="${
-    height - 24
-  }">${low.toPrecision(3)}</text><text x="50" y="${height - 6}">${x0.toFixed(1)} s</text><text x="${width - 50}" y="${height - 6}">${x1.toFixed(1)} s</text>${paths.join('')}</svg>\n`;
+  const text = (x: number, y: number, what: string) => `<text x="${x}" y="${y}">${what}</text>`;
+  const axes = [text(4, 26, high.toPrecision(3)), text(4, height - 24, low.toPrecision(3)), text(50, height - 6, `${x0.toFixed(1)} s`), text(width - 50, height - 6, `${x1.toFixed(1)} s`)];
+  return `<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 ${-14 * above} ${width} ${height + 14 * above}" font-family="sans-serif" font-size="11">${[...keys, ...axes, ...paths].join('')}</svg>\n`;
 }
 
 export function csv(header: string[], rows: Iterable<ArrayLike<number | string>>): string {

@@ -19,8 +19,7 @@ export function axisScale(scale: Scale, low: number, high: number): Scale {
 
 /** Smallest and largest finite value; low > high when there is none. */
 export function extent(values: ArrayLike<number>): [number, number] {
-  let low = Infinity;
-  let high = -Infinity;
+  let low = Infinity, high = -Infinity;
   for (let i = 0; i < values.length; i++) {
     const v = values[i]!;
     if (v < low) low = v;

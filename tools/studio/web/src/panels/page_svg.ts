@@ -82,10 +82,8 @@ export function pageSvg(boxes: Iterable<PageBox>, lines: PageLine[], process: Pr
     const count = line.members.length > 1 ? `<text x="${number(at.x)}" y="${number(at.y - 4)}" font-size="11" text-anchor="middle" fill="${ink}">${line.members.length}</text>` : '';
     return `<g><title>${escape(title)}</title><path d="${roundedPath(points)}" fill="none" stroke="${kinds[kind]}" stroke-width="1.6" marker-end="url(#${kind})"/>${count}</g>`;
   });
-  const below = [...all.values()].filter((b) => b.comment), above = [...all.values()].filter((b) => !b.comment);
-  return `<svg xmlns="http://www.w3.org/2000/svg" width="${number(width)}" height="${number(height)}" viewBox="${number(left - margin)} ${number(top - margin)} ${number(width)} ${number(height)}" font-family="sans-serif"><defs>${
-    markers.join('')
-  }</defs><rect x="${number(left - margin)}" y="${number(top - margin)}" width="${number(width)}" height="${number(height)}" fill="#ffffff"/>${below.map((b) => boxSvg(b, process)).join('')}${paths.join('')}${
-    above.map((b) => boxSvg(b, process)).join('')
-  }</svg>\n`;
+  const boxesOf = (comments: boolean) => [...all.values()].filter((b) => b.comment === comments).map((b) => boxSvg(b, process)).join('');
+  const [x, y, w, h] = [left - margin, top - margin, width, height].map(number);
+  const content = [`<defs>${markers.join('')}</defs>`, `<rect x="${x}" y="${y}" width="${w}" height="${h}" fill="#ffffff"/>`, boxesOf(true), ...paths, boxesOf(false)];
+  return `<svg xmlns="http://www.w3.org/2000/svg" width="${w}" height="${h}" viewBox="${x} ${y} ${w} ${h}" font-family="sans-serif">${content.join('')}</svg>\n`;
 }
