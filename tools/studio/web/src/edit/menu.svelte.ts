@@ -34,7 +34,9 @@ class Menu {
       void act?.();
     }
   }
-  close(): void {
+  /** Closes it, in place of what the event would do. */
+  close(e?: Event): void {
+    e?.preventDefault();
     const from = this.shown?.from;
     this.shown = null;
     from?.focus();
