@@ -2,15 +2,13 @@
 import { boxSize, layOut, pageOf, toFile } from '../panels/diagram';
 import { model } from '../stores/model.svelte';
 import { selection } from '../stores/selection.svelte';
-import type { CanvasComment, Group, Process } from '../protocol/messages';
 import { edit } from './operations';
 import { aligned, distributed, type Edge, type Placed } from './places';
 
 function chosen(): Placed[] {
   return selection.ids.flatMap((id) => {
-    const item = model.find(id);
-    const box: Group | Process | CanvasComment | null = item?.kind === 'group' ? item.group : item?.kind === 'process' ? item.process : item?.kind === 'comment' ? item.comment : null;
-    return box?.icon ? [{ id, ...box.icon }] : [];
+    const icon = [...model.groups, ...model.processes, ...model.comments].find((b) => b.id === id)?.icon;
+    return icon ? [{ id, ...icon }] : [];
   });
 }
 const place = (boxes: Placed[], title: string) => edit(boxes.map((b) => ({ do: 'place', id: b.id, x: b.x, y: b.y })), title);

@@ -41,12 +41,11 @@ export function rename(id: string): void {
 export const dissolve = (id: string) => edit({ do: 'dissolve', id });
 
 /** Puts a process into a file, or the content of its file into the system. */
-export const partEntries = (p: Process): Entries =>
-  p.within
-    ? []
-    : p.linked
-    ? [{ label: 'Dissolve', name: `Dissolve ${p.name}`, act: () => dissolve(p.id) }]
-    : [{ label: 'Make a part of this…', name: `Make a part of ${p.name}`, disabled: p.groups.length === 0, act: () => fileDialog.open('part', p.id) }];
+export function partEntries(p: Process): Entries {
+  if (p.within) return [];
+  if (p.linked) return [{ label: 'Dissolve', name: `Dissolve ${p.name}`, act: () => dissolve(p.id) }];
+  return [{ label: 'Make a part of this…', name: `Make a part of ${p.name}`, disabled: p.groups.length === 0, act: () => fileDialog.open('part', p.id) }];
+}
 
 /** The entry that opens some panels; none without any. */
 const plot = (label: string, panels: PanelState[]): Entries => (panels.length ? [{ label, act: () => panels.forEach((p) => dock.plot(p)) }] : []);

@@ -17,9 +17,11 @@ export function figureOf(panel: PanelState): Figure | null {
   const source = group && `${group.path}:${(panel.state as string) || outputState(group)}`;
   switch (panel.kind) {
     case 'time':
-      return panel.sources?.length
-        ? { plots: panel.sources.every((s) => s.endsWith(')')) && panel.sources.length <= 10 ? [`time:${panel.sources.join(', ')}`] : panel.sources.map((s) => `time:${s}`), from: since(((panel.window as number) ?? 30) / model.perCycle) }
-        : null;
+      if (!panel.sources?.length) return null;
+      return {
+        plots: panel.sources.every((s) => s.endsWith(')')) && panel.sources.length <= 10 ? [`time:${panel.sources.join(', ')}`] : panel.sources.map((s) => `time:${s}`),
+        from: since(((panel.window as number) ?? 30) / model.perCycle),
+      };
     case 'raster':
       return source ? { plots: [`time:${source}`], from: since((panel.cycles as number) ?? 400) } : null;
     case 'space':
