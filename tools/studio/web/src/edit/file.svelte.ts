@@ -43,10 +43,7 @@ const tasks: Record<FileAction, (process: string) => FileTask> = {
     files: /\.(iqr|xml)$/,
     ending: '.iqr',
     name: ownName(editing.backupOf ?? editing.file, editing.shipped) || `${model.system?.name || 'system'}.iqr`,
-    act: async (file, overwrite) => {
-      await sendAll();
-      saved(await request('save', { file, overwrite }));
-    },
+    act: (file, overwrite) => sendAll().then(() => request('save', { file, overwrite })).then(saved),
   }),
   import: () => ({ title: 'Import a process', verb: 'Import', files: /\.(iqrprocess|iqr)$/i, act: (file) => request('import', { file, link: false }) }),
   link: () => ({ title: 'Link a process', verb: 'Link', files: /\.(iqrprocess|iqr)$/i, act: (file) => request('import', { file, link: true }) }),
@@ -65,10 +62,7 @@ const tasks: Record<FileAction, (process: string) => FileTask> = {
       files: /\.iqrprocess$/i,
       ending: '.iqrProcess',
       name: `${name}.iqrProcess`,
-      act: async (file, overwrite) => {
-        await attempt({ do: 'make_part', id, file, overwrite });
-        actions.notify('info', `${name} uses ${baseName(file)} now.`);
-      },
+      act: (file, overwrite) => attempt({ do: 'make_part', id, file, overwrite }).then(() => actions.notify('info', `${name} uses ${baseName(file)} now.`)),
     };
   },
   new: () => ({
@@ -76,20 +70,15 @@ const tasks: Record<FileAction, (process: string) => FileTask> = {
     verb: 'Create',
     files: /\.world$/,
     name: newName,
-    act: async () => {
-      await request('new', { name: fileDialog.name.trim(), world: fileDialog.world.trim(), from: fileDialog.template });
-      void command('speed', { mode: 'real' }); // not that of what was open before
-    },
+    // Its speed is not that of what was open before.
+    act: () => request('new', { name: fileDialog.name.trim(), world: fileDialog.world.trim(), from: fileDialog.template }).then(() => void command('speed', { mode: 'real' })),
   }),
   world: () => ({
     title: 'Another world',
     verb: 'Open',
     files: /\.world$/,
     beside: world(),
-    act: async (file) => {
-      await request('world_open', { world: file });
-      actions.notify('info', `The run restarts in ${baseName(file)}.`);
-    },
+    act: (file) => request('world_open', { world: file }).then(() => actions.notify('info', `The run restarts in ${baseName(file)}.`)),
   }),
   'save the world': () => ({
     title: 'Save the world as',
@@ -97,7 +86,7 @@ const tasks: Record<FileAction, (process: string) => FileTask> = {
     ending: '.world',
     name: ownName(world(), worldFile.document?.shipped),
     beside: world(),
-    act: async (file, overwrite) => saved(await request('world_save', { file, overwrite })),
+    act: (file, overwrite) => request('world_save', { file, overwrite }).then(saved),
   }),
 };
 
