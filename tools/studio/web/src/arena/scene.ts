@@ -91,15 +91,11 @@ export class WorldScene {
     sun.position.set(-3, -5, 9);
     this.scene.add(sun, this.rays.object, this.trails.object);
     this.addFloor(floor);
-    for (const solid of world.solids) this.addFixed(solid);
+    // What is flat is in the picture of the floor.
+    for (const solid of world.solids) if (solid.z + solid.size[2] / 2 >= 0.02) this.addSolid(solid);
     for (const [x, y] of world.targets) this.addTarget(x, y);
     if (world.bounds) this.addBounds(world.bounds);
-    this.objects = world.objects.map((o) =>
-      o.solids.flatMap((s) => {
-        const mesh = meshOf(s.kind, s.size, new Color(s.color));
-        return mesh ? [this.put(mesh, s)] : [];
-      })
-    );
+    this.objects = world.objects.map((o) => o.solids.flatMap((s) => this.addSolid(s)));
     this.robots = world.robots.map((r, i) => {
       const arrow = new Mesh(new ConeGeometry(r.radius * 0.7, r.radius * 1.7, 3).rotateZ(-Math.PI / 2).scale(1, 1, 0.15), new MeshBasicMaterial({ color: robotColour(i) }));
       const parts = new Group();
@@ -157,11 +153,14 @@ export class WorldScene {
     });
   }
 
-  private put(mesh: Mesh, at: Pick<Solid, 'x' | 'y' | 'z' | 'yaw'>): Mesh {
-    mesh.position.set(at.x, at.y, at.z);
-    mesh.rotation.z = at.yaw;
+  /** Returns its mesh, if its kind has one. */
+  private addSolid({ kind, size, color, x, y, z, yaw }: Solid): Mesh[] {
+    const mesh = meshOf(kind, size, new Color(color));
+    if (!mesh) return [];
+    mesh.position.set(x, y, z);
+    mesh.rotation.z = yaw;
     this.scene.add(mesh);
-    return mesh;
+    return [mesh];
   }
 
   private addFloor(map: Texture): void {
@@ -170,12 +169,6 @@ export class WorldScene {
     const floor = new Mesh(new PlaneGeometry(x1 - x0, y1 - y0), new MeshBasicMaterial({ map }));
     floor.position.set((x0 + x1) / 2, (y0 + y1) / 2, 0);
     this.scene.add(floor);
-  }
-  /** What is flat is in the picture of the floor. */
-  private addFixed(solid: Solid): void {
-    if (solid.z + solid.size[2] / 2 < 0.02) return;
-    const mesh = meshOf(solid.kind, solid.size, new Color(solid.color));
-    if (mesh) this.put(mesh, solid);
   }
   private addTarget(x: number, y: number): void {
     const column = new Mesh(new CylinderGeometry(0.12, 0.12, 0.5, 24, 1, true).rotateX(Math.PI / 2), new MeshBasicMaterial({ color: '#fff3b0', transparent: true, opacity: 0.45, depthWrite: false }));

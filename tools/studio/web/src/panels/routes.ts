@@ -78,10 +78,7 @@ function spread(lines: Ends[]): Ends[] {
 
 /** The smallest first. */
 class Heap {
-  private items: [number, number][] = [];
-  get size() {
-    return this.items.length;
-  }
+  readonly items: [number, number][] = [];
   push(cost: number, state: number): void {
     const { items } = this;
     let i = items.push([cost, state]) - 1;
@@ -132,7 +129,7 @@ function gridOf(boxes: Box[], exits: Point[]) {
     const open = new Heap();
     cost[start] = 0;
     open.push(rest(from), start);
-    while (open.size) {
+    while (open.items.length) {
       const state = open.pop(), at = state >> 1, was = state & 1;
       if (at === goal && was === arrives) {
         const states = [state];

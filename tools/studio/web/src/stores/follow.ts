@@ -13,7 +13,10 @@ export interface NameChanges {
   lost: Map<string, string>;
 }
 
-const named = ({ processes, connections }: SystemMessage): Map<string, string> => new Map([...processes.flatMap((p) => p.groups.map((g) => [g.id, g.path] as const)), ...connections.map((c) => [c.id, c.name] as const)]);
+function named({ processes, connections }: SystemMessage): Map<string, string> {
+  const groups = processes.flatMap((p) => p.groups.map((g) => [g.id, g.path] as const));
+  return new Map([...groups, ...connections.map((c) => [c.id, c.name] as const)]);
+}
 
 /** The ids of groups and connections by their names. */
 export const idsByName = (system: SystemMessage): Map<string, string> => new Map([...named(system)].map(([id, name]) => [name, id]));

@@ -63,4 +63,9 @@ export const weightSource = (c: Connection, state: string): string => `sampled($
 /** The state of a group that plots show unless another one is chosen. */
 export const outputState = (group: Group): string => (group.states.find((s) => s.output) ?? group.states[0])?.name ?? 'act';
 
+/** The name of the item with an id, if there is one. */
+export const nameOf = (id: string | null | undefined): string | undefined => {
+  const item = model.find(id);
+  return item && itemName(item);
+};
 export const itemName = (item: Item): string => (item.kind === 'group' ? item.group.path : item.kind === 'process' ? item.process.name : item.kind === 'connection' ? item.connection.name : 'Comment');
