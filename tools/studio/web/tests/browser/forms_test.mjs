@@ -147,7 +147,9 @@ export default async function({ site, folder, context, start, open, faults, step
   await alert('7 is outside of the usual range, 0 to 1.');
   await page.getByRole('button', { name: /problem/ }).waitFor({ state: 'detached' });
   await inspector.getByRole('button', { name: 'Use 7 all the same' }).click();
-  await until(page, 'the unusual value', () => document.getElementById('Bug/Motor.vmPrs')?.value === '7');
+  await page.getByTitle(/^Undo: Bug\/Motor.vmPrs = 7/).waitFor();
+  await inspector.getByText('7 is outside of the usual range').waitFor({ state: 'detached' });
+  await until(page, 'the unusual value is taken', () => document.getElementById('Bug/Motor.vmPrs')?.ariaInvalid === 'false');
   await page.keyboard.press('Control+z');
   await undo.waitFor({ state: 'detached' });
   await until(page, 'the former value', () => document.getElementById('Bug/Motor.vmPrs')?.value === '0');

@@ -378,7 +378,13 @@ export default async function({ folder, start, open, faults, step }) {
   await picture(page, 'weights');
   await weights.getByRole('button', { name: 'This synapse over time' }).click();
   await page.getByRole('button', { name: /^Change learns:\w+\(2,6\)$/ }).waitFor();
+
+  step('time: a run that begins again has an empty plot');
+  const filled = (what, wanted) => until(page, what, (w) => [...document.querySelectorAll('.panel:has(.uplot)')].some((p) => p.offsetWidth && !p.querySelector('.empty') === w), wanted);
+  await filled('a trace', true);
   await page.getByRole('button', { name: 'Pause', exact: true }).click();
+  await page.getByRole('button', { name: 'Stop', exact: true }).click();
+  await filled('no trace', false);
 
   assert.deepEqual(faults, []);
 }
