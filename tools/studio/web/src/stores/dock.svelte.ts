@@ -145,7 +145,7 @@ class Dock {
   openWorld(): void {
     if (!this.openBeside({ kind: 'world' }, 'arena') || frame.small) return;
     const { api } = this.of('world')!, all = this.api!;
-    api.setSize({ width: Math.max(api.width, Math.min(760, 0.62 * all.width)), height: Math.max(api.height, Math.min(620, 0.72 * all.height)) });
+    api.setSize({ width: Math.max(api.width, Math.min(680, 0.5 * all.width)), height: Math.max(api.height, Math.min(620, 0.72 * all.height)) });
   }
 
   /** Says that the arena or the diagram is closed, which no plot leads to, with the way back to its place. Called before it is closed. */

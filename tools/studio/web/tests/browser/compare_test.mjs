@@ -117,5 +117,5 @@ export default async function({ start, open, step }) {
   await page.keyboard.press('Delete');
   await page.getByText('The run continues in the edited system: it cannot go back to before this edit and the comparison has ended.').waitFor();
   await page.getByRole('button', { name: 'Compare from here' }).waitFor();
-  assert.ok((await seek.getAttribute('min')) === (await seek.inputValue()));
+  assert.ok((await seek.getAttribute('max')) === (await seek.inputValue()) && (await seek.isDisabled()), 'the slider of a run without a past is at its end');
 }
