@@ -81,7 +81,9 @@ NewItem ground_around(const std::vector<WorldItem>& items) {
         if (!i.placed || i.kind == "floor") continue;
         double reach = 0;
         for (const auto& p : i.parts)
-            reach = std::max(reach, std::hypot(p.x, p.y) + std::hypot(p.size.front(), p.size.back()) / 2);
+            reach =
+                std::max(reach, std::hypot(p.x, p.y) +
+                                    (p.size.size() == 1 ? p.size[0] : std::hypot(p.size[0], p.size[1]) / 2));
         x = std::max(x, std::abs(i.x) + reach + room), y = std::max(y, std::abs(i.y) + reach + room);
     }
     const auto whole = [&](double half) { return 2 * step * std::ceil(half / step); };

@@ -320,6 +320,7 @@ TEST_CASE("a start pose brings the bounds that end trials, once, and leaves the 
     std::string text = read_file(file.string()), id;
     ModelTexts models(file.string());
     text = add_to_world(text, {.kind = "wall", .name = "", .x = 4, .width = 1}, models, id);
+    text = add_to_world(text, {.kind = "home", .name = "", .x = -7}, models, id);  // its radius is 3
     text = add_to_world(text, {.kind = "start", .name = "", .x = 0, .y = -6}, models, id);
     CHECK(id == "Reset_0");
     text = add_to_world(text, {.kind = "start", .name = "", .x = 1}, models, id);
@@ -333,6 +334,7 @@ TEST_CASE("a start pose brings the bounds that end trials, once, and leaves the 
     REQUIRE(plan);
     CHECK(plan->starts.size() == 2);
     CHECK(plan->bounds.contains(Eigen::Vector2d(4.5, -6.5)));
+    CHECK(plan->bounds.contains(Eigen::Vector2d(-10, 0)));
 }
 
 TEST_CASE("what cannot be done to a world is said") {
