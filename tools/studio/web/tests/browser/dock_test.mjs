@@ -343,5 +343,13 @@ export default async function({ start, open, onDisk, faults, step }) {
   await page.getByText('All panels are closed.').waitFor();
   await page.getByRole('button', { name: 'Overview', exact: true }).click();
   await page.getByRole('group', { name: 'Arena' }).waitFor();
+
+  step('that a panel is closed is said until another one is');
+  const closing = (title) => page.locator('.dv-tab', { hasText: title }).locator('.dv-default-tab-action').dispatchEvent('click');
+  await closing('Arena');
+  await page.getByText('The arena is closed.').waitFor();
+  await closing('Bug/Light');
+  await page.evaluate(() => new Promise(requestAnimationFrame));
+  assert.equal(await page.getByText('The arena is closed.').count(), 0);
   assert.deepEqual(faults, []);
 }

@@ -40,6 +40,7 @@ export default async function({ site, folder, context, start, open, faults, step
   await row('system').click();
   await pageIs('the system');
   await inspector.getByLabel('Cycles per second').waitFor();
+  await inspector.getByText('In this world, 30 cycles are a second: its time is 2 times as fast as the clock.').waitFor();
   await inspector.getByText('For the original iqr').click();
   await inspector.getByLabel('Port', { exact: true }).fill('54923');
   await inspector.getByLabel('Port', { exact: true }).press('Enter');
