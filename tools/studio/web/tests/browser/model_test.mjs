@@ -68,6 +68,8 @@ export default async function({ folder, start, open, onDisk, faults, step }) {
   await page.locator('[id="n"]').fill('15');
   await page.locator('[id="n"]').press('Enter');
   await inspector.getByRole('alert').filter({ hasText: 'more than parameters depends on this constant' }).waitFor();
+  assert.equal(await page.locator('[id="n"]').inputValue(), '15', 'what is refused can be mended');
+  await page.locator('[id="n"]').press('Escape');
   assert.equal(await page.locator('[id="n"]').inputValue(), '12');
   await page.getByRole('heading', { name: 'Inspector' }).click();
   await page.keyboard.press('Control+z');
