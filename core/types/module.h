@@ -118,6 +118,9 @@ struct ModulePort {
     /// What the cells of its group stand for; null: nothing is known. `module` holds the parameters.
     std::function<CellNames(const void* module, const ModulePorts&, const GroupShape&)> names = {};
     std::string like = {};  ///< another port, whose cells stand for the same
+    /// Two other ports: the group has a picture of the first one's cells for each cell of the second, side by
+    /// side.
+    std::string picture = {}, each = {};
 };
 
 /// A full rectangle of cells. Sides and areas above 2^31 - 1 become that number.
@@ -250,6 +253,11 @@ class PortBuilder {
         return names([all = std::move(all)](const T&, const ModulePorts&, const GroupShape& shape) {
             return shape.width > 1 || all.size() == 1 ? CellNames{.columns = all} : CellNames{.rows = all};
         });
+    }
+    /// The group has a picture of the cells at `port` for each cell at `each`, side by side, and their names.
+    PortBuilder& pictures(std::string port_name, std::string each) {
+        port().picture = std::move(port_name), port().each = std::move(each);
+        return *this;
     }
     /// Sizes that the original accepts although they do not fit: `accepts(sizes, given)`.
     template <class Accepts>

@@ -68,13 +68,7 @@ void AdaptiveLayerModule::describe(ModuleSpec<AdaptiveLayerModule>& s) {
                   const auto cs = of["input"], ur = of["condition"];
                   return rectangle(static_cast<std::int64_t>(ur.cells) * cs.width, cs.height);
               })
-        .names([](const auto&, const ModulePorts& ports, const GroupShape& shape) {
-            const int width = std::max(1, ports.inputs[input].shape.width);
-            CellNames out;
-            for (int x = 0; x < shape.width; ++x)
-                out.columns.push_back(fmt::format("to cell {}", x / width + 1));
-            return out;
-        })
+        .pictures("input", "output")
         .doc("The k-th picture shows the weights from the stimuli to cell k of the response.");
 }
 

@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "core/connectivity/connect.h"
 #include "core/model/validate.h"
 
@@ -132,6 +134,38 @@ void name_ports(const model::Process& process, const Layout::Module& module, Env
     }
 }
 
+/// The group at the port with this name; -1 for none.
+int group_at(const Layout::Module& module, const std::vector<int>& groups, const std::string& port) {
+    const auto found = std::ranges::find(module.type.ports, port, &ModulePort::name);
+    return found == module.type.ports.end()
+               ? -1
+               : groups[static_cast<std::size_t>(found - module.type.ports.begin())];
+}
+
+/// Names the groups at ports that show pictures, one for each cell of another group.
+void name_pictures(const Layout::Module& module, Layout& layout) {
+    if (module.type.any_ports) return;
+    const auto groups = groups_at_ports(module);
+    for (std::size_t i = 0; i < groups.size(); ++i) {
+        const auto& port = module.type.ports[i];
+        const int own = groups[i], picture = group_at(module, groups, port.picture),
+                  each = group_at(module, groups, port.each);
+        if (port.picture.empty() || own < 0 || picture < 0 || each < 0) continue;
+        auto& to = layout.groups[static_cast<std::size_t>(own)];
+        const auto& of = layout.groups[static_cast<std::size_t>(picture)];
+        const auto& cells = layout.groups[static_cast<std::size_t>(each)];
+        if (to.names.any() || of.shape.width < 1 || cells.shape.width < 1) continue;
+        to.names.rows = of.names.rows, to.names.row = of.names.row;
+        for (int x = 0; x < to.shape.width; ++x) {
+            const int cell = x / of.shape.width;
+            std::string name = cells.names.of(cell % cells.shape.width + 1, cell / cells.shape.width + 1);
+            if (name.empty()) name = fmt::format("to cell {}", cell + 1);
+            const std::string column = CellNames{.columns = of.names.columns}.of(x % of.shape.width + 1, 1);
+            to.names.columns.push_back(column.empty() ? name : name + ", " + column);
+        }
+    }
+}
+
 /// Gives groups at ports the names of other ports of their module, which stand for the same.
 bool name_like(const Layout::Module& module, Layout& layout) {
     bool any = false;
@@ -163,6 +197,7 @@ void name_cells(const model::System& system, Environment* environment, Layout& l
         for (const auto& module : layout.modules) any = name_like(module, layout) || any;
         any = any || carrier.carry(true) || carrier.carry(false);
     }
+    for (const auto& module : layout.modules) name_pictures(module, layout);
 }
 
 }  // namespace forage::engine

@@ -17,6 +17,7 @@ struct Wheels {
         });
         s.output("estimate", "Estimate").optional().same_size_as("wheels");
         s.output("senses", "Senses").optional().names({"near", "far"});
+        s.output("weights", "Weights").optional().pictures("senses", "wheels");
     }
     void update(ModuleFrame&) const {}
 };
@@ -26,13 +27,14 @@ struct Robot {
     model::System system;
     Registry types = registry();
     std::string process = model::add_process(system, "P"), wheels = add("Wheels", 2, 2),
-                senses = add("Senses", 2, 1), estimate = add("Estimate", 2, 2);
+                senses = add("Senses", 2, 1), estimate = add("Estimate", 2, 2),
+                weights = add("Weights", 8, 1);
     Robot() {
         types.add(module_type<Wheels>());
         model::ModuleUse use;
         use.type = "wheels";
         use.inputs = {{"wheels", wheels, {}}};
-        use.outputs = {{"senses", senses, {}}, {"estimate", estimate, {}}};
+        use.outputs = {{"senses", senses, {}}, {"estimate", estimate, {}}, {"weights", weights, {}}};
         model::find_process(system, process)->module = use;
     }
     std::string add(const char* name, int width, int height) {
@@ -68,6 +70,16 @@ TEST_CASE("A group at a port has the names of the port, in a row or in a column"
     CHECK(robot.names("Estimate") == robot.names("Wheels"));
     model::find_group(robot.system, robot.senses)->topology = model::RectTopology{1, 2};
     CHECK(robot.names("Senses").rows == std::vector<std::string>{"near", "far"});
+}
+
+TEST_CASE("Pictures, one for each cell of a group, have the names of both") {
+    Robot robot;
+    CHECK(robot.names("Weights").of(1, 1) == "ahead, left, near");
+    CHECK(robot.names("Weights").of(8, 1) == "back, right, far");
+    auto& senses = model::find_group(robot.system, robot.senses)->topology;
+    senses = model::RectTopology{1, 2};
+    model::find_group(robot.system, robot.weights)->topology = model::RectTopology{4, 2};
+    CHECK(robot.names("Weights").of(3, 2) == "far, back, left");
 }
 
 TEST_CASE("A disabled module names nothing") {
