@@ -9,6 +9,15 @@
 namespace forage::plot {
 namespace {
 
+/// Calls `f` with the first and the last of neighbours of the same name.
+template <class F>
+void for_each_run(const std::vector<std::string>& names, F f) {
+    for (std::size_t i = 0, end = 0; i < names.size(); i = end) {
+        while (end < names.size() && names[end] == names[i]) ++end;
+        f(i, end - 1);
+    }
+}
+
 constexpr double tick_size = 12, title_size = 13;
 
 double round_step(double raw) {
@@ -75,10 +84,20 @@ void draw_frame(Canvas& canvas, const Box& box, const Colour& colour) {
 
 std::vector<std::pair<double, std::string>> name_ticks(const std::vector<std::string>& names, double first) {
     std::vector<std::pair<double, std::string>> out;
-    for (std::size_t i = 0, end = 0; i < names.size(); i = end) {
-        while (end < names.size() && names[end] == names[i]) ++end;
-        out.emplace_back(first + static_cast<double>(i + end - 1) / 2, names[i]);
-    }
+    for_each_run(names, [&](std::size_t from, std::size_t to) {
+        out.emplace_back(first + static_cast<double>(from + to) / 2, names[from]);
+    });
+    return out;
+}
+
+std::vector<std::pair<double, std::string>> numbered_ticks(const std::vector<std::string>& names, int first) {
+    auto out = name_ticks(names, first);
+    std::size_t i = 0;
+    for_each_run(names, [&](std::size_t from, std::size_t to) {
+        const auto number = [&](std::size_t k) { return std::to_string(first + static_cast<int>(k)); };
+        auto& text = out[i++].second;
+        text = number(from) + (to > from ? "-" + number(to) : "") + (text.empty() ? "" : " " + text);
+    });
     return out;
 }
 

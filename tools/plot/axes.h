@@ -71,6 +71,8 @@ struct AxisStyle {
 
 /// Ticks with the names of things that are numbered from `first` on. Neighbours of the same name share one.
 std::vector<std::pair<double, std::string>> name_ticks(const std::vector<std::string>& names, double first);
+/// The same with the numbers of the neighbours in front: "1-2 red".
+std::vector<std::pair<double, std::string>> numbered_ticks(const std::vector<std::string>& names, int first);
 
 /// Draws the frame, the ticks with labels, and the titles.
 void draw_axes(Canvas& canvas, const Axes& axes, const AxisStyle& x, const AxisStyle& y);

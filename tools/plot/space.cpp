@@ -70,11 +70,11 @@ std::string name_down(const CellGrid& g) {
     return g.numbered ? "" : g.names.row.empty() ? "row" : g.names.row;
 }
 
-/// The names of the rows, for the ticks of a single panel.
-std::vector<std::string> row_names(const CellGrid& g) {
+/// The numbers and names of the rows, for the ticks of a single panel.
+std::vector<std::pair<double, std::string>> row_ticks(const CellGrid& g) {
     const auto& all = g.names.rows;
     if (g.synapses || g.numbered || std::ssize(all) < g.y - 1 + g.height) return {};
-    return {all.begin() + g.y - 1, all.begin() + g.y - 1 + g.height};
+    return numbered_ticks({all.begin() + g.y - 1, all.begin() + g.y - 1 + g.height}, g.y);
 }
 
 void draw_panel(Canvas& canvas, const SpacePlot& plot, const SpaceFrame& frame, const ColourScale& scale,
@@ -97,7 +97,7 @@ void draw_panel(Canvas& canvas, const SpacePlot& plot, const SpaceFrame& frame, 
     divide(plot.blocks_down, false);
     const Axes axes{box, {g.x - 0.5, g.x + g.width - 0.5}, {g.y - 0.5, g.y + g.height - 0.5}, true};
     AxisStyle rows{single ? name_down(g) : "", true, !g.numbered};
-    if (single) rows.ticks = name_ticks(row_names(g), g.y);
+    if (single) rows.ticks = row_ticks(g);
     draw_axes(canvas, axes, {"", true}, rows);
     if (!single) canvas.text(box.x + box.width / 2, box.y - 6, fmt::format("cycle {}", frame.cycle), 12, 0.5);
 }
@@ -105,7 +105,7 @@ void draw_panel(Canvas& canvas, const SpacePlot& plot, const SpaceFrame& frame, 
 Picture sheet_of(const SpacePlot& plot, std::vector<SpaceFrame> frames, const ColourScale& scale) {
     Measure measure;
     double names = 0;
-    for (const auto& name : row_names(plot.grid))
+    for (const auto& [at, name] : row_ticks(plot.grid))
         names = std::max(names, measure.canvas().width_of(name, 12));
     const PanelSheet sheet(plot.grid, frames.size(), names);
     const std::string subtitle =

@@ -50,6 +50,11 @@ TEST_CASE("Neighbours of the same name share a tick") {
           std::vector<std::pair<double, std::string>>{{1.5, "red"}, {3, "blue"}});
 }
 
+TEST_CASE("Rows have their numbers in front of what they stand for") {
+    CHECK(numbered_ticks({"red", "red", "blue"}, 4) ==
+          std::vector<std::pair<double, std::string>>{{4.5, "4-5 red"}, {6, "6 blue"}});
+}
+
 TEST_CASE("A plot over time has several sources, each after a closing parenthesis") {
     const auto sources = [](const char* text) {
         forage::Diagnostics diagnostics;
