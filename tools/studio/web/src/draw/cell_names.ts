@@ -39,6 +39,12 @@ export function nameLines(name: string, width: number, maxLines: number, widthOf
   return lines.length <= maxLines && lines.every((l) => widthOf(l) <= width) ? lines : [withoutMiddle(name, width, widthOf)];
 }
 
+/** The numbers of columns or rows, from `first` on, that stand on an axis: the first one and round ones, at least `gap` pixels apart; empty between them. */
+export function axisNumbers(count: number, first: number, length: number, gap: number): string[] {
+  const step = [1, 2, 5, 10, 20, 50, 100, 200, 500].find((s) => (s * length) / count >= gap) ?? 1000;
+  return Array.from({ length: count }, (_, i) => (i === 0 || (first + i) % step === 0 ? String(first + i) : ''));
+}
+
 /** As many names as fit beside `length` pixels, each from `start` on, at even distances, with the first and the last, and the one in the middle, if there is one. A run of the same name has one label. */
 export function axisLabels(names: string[], length: number, sizeOf: (text: string) => number, gap = 8): { text: string; start: number; at: number }[] {
   const step = length / names.length, labels: { text: string; start: number; at: number; end: number }[] = [];
@@ -46,13 +52,13 @@ export function axisLabels(names: string[], length: number, sizeOf: (text: strin
     let end = i + 1;
     while (end < names.length && names[end] === names[i]) end++;
     const text = names[i]!, at = ((i + end) / 2) * step, size = sizeOf(text), start = Math.max(0, Math.min(length - size, at - size / 2));
-    labels.push({ text, start, at, end: start + size });
+    if (text) labels.push({ text, start, at, end: start + size });
     i = end;
   }
   const last = labels.length - 1;
   for (let parts = Math.min(last, Math.floor(length / 8)); parts >= 0; parts--) { // a letter takes 8 pixels
     if (last % 2 === 0 && parts % 2 === 1 && parts > 1) continue; // without the one in the middle
-    const some = Array.from({ length: parts + 1 }, (_, i) => labels[parts ? Math.round((i * last) / parts) : 0]!).filter((l) => l.text);
+    const some = Array.from({ length: parts + 1 }, (_, i) => labels[parts ? Math.round((i * last) / parts) : 0]!);
     if (some.every((l, i) => l.end - l.start <= length && (i === 0 || some[i - 1]!.end + gap <= l.start))) return some.map(({ text, start, at }) => ({ text, start, at }));
   }
   return [];

@@ -1,5 +1,5 @@
 import { describe, expect, it, vi } from 'vitest';
-import { axisLabels, cellName, directionWords, nameLines } from '../../src/draw/cell_names';
+import { axisLabels, axisNumbers, cellName, directionWords, nameLines } from '../../src/draw/cell_names';
 import { Lattice } from '../../src/draw/lattice';
 import { momentText, spanText } from '../../src/draw/moment';
 import type { Group, SystemMessage } from '../../src/protocol/messages';
@@ -35,6 +35,15 @@ describe('names of cells', () => {
     const motor = ['left 100', 'left 75', 'left 50', 'left 25', 'straight', 'right 25', 'right 50', 'right 75', 'right 100'];
     expect(axisLabels(motor, 500, size).map((l) => l.text)).toEqual(['left 100', 'left 50', 'straight', 'right 50', 'right 100']);
     expect(axisLabels(motor, 400, size).map((l) => l.text)).toEqual(['left 100', 'straight', 'right 100']);
+  });
+});
+
+describe('numbers of columns and rows', () => {
+  it('stand at the first one and at round ones, apart from each other', () => {
+    expect(axisNumbers(4, 1, 100, 24)).toEqual(['1', '2', '3', '4']);
+    expect(axisNumbers(6, 1, 72, 24)).toEqual(['1', '2', '', '4', '', '6']);
+    expect(axisNumbers(100, 1, 500, 24).filter(Boolean)).toEqual(['1', '5', ...Array.from({ length: 19 }, (_, i) => String(5 * (i + 2)))]);
+    expect(axisNumbers(3, 11, 30, 24)).toEqual(['11', '', '']);
   });
 });
 
