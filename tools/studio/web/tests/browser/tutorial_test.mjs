@@ -37,7 +37,7 @@ export default async function({ site, folder, start, open, faults, step }) {
   const about = {
     1: ['Bug', 'Selection', 'Bug', 'Bug'],
     2: ['Reactive Layer', 'Selection', 'Selection', 'Reactive Layer', 'Bug'],
-    3: Array(8).fill('Adaptive'),
+    3: Array(9).fill('Adaptive'),
     4: Array(9).fill('Contextual'),
     5: ['Contextual', 'Contextual', 'Contextual', 'Sequential'],
     6: Array(5).fill('Allostasis'),
@@ -46,7 +46,7 @@ export default async function({ site, folder, start, open, faults, step }) {
   const asked = {
     1: ['Arena', 'Diagram', 'Bug/Red - Hue', 'Bug/Light'],
     2: ['Diagram', 'Selection/Motor In', 'Diagram', 'Arena', 'GPS over time'],
-    3: ['Trials', 'Adaptive/Weights Display', 'Adaptive/Weights Display', 'discrepancy over time', 'Adaptive/prototype', 'Adaptive/Weights Display', 'Trials', 'Trials'],
+    3: ['Trials', 'Adaptive/Weights Display', 'Adaptive/Weights Display', 'discrepancy over time', 'Adaptive/Weights Display', 'Adaptive/prototype', 'Adaptive/Weights Display', 'Trials', 'Trials'],
     4: ['Contextual/Empty', 'Contextual/Empty', 'Contextual/Selected', 'Contextual/Selected', 'Contextual/Empty', 'Contextual/Empty', 'Contextual/Selected', 'Contextual/Empty', 'Contextual/Selected'],
     5: ['Trials', 'Trials', 'Trials', 'Trials'],
     6: ['Balance over time', 'Needs over time', 'Needs over time', 'Needs: security over time', 'Needs over time'],
@@ -173,6 +173,17 @@ export default async function({ site, folder, start, open, faults, step }) {
   await rates.getByRole('listitem').first().waitFor({ state: 'detached' });
   assert.equal(await number.inputValue(), '');
   assert.equal(await listed.and(tutorial.locator('.done')).count(), 0);
+
+  step('a plot of weights has the numbers of its rows and columns, and the names of colours and actions');
+  await tutorial.locator('[data-open="1"]').click();
+  await tutorial.locator('.setup.active [data-open="1"]').waitFor();
+  const weights = page.getByRole('group', { name: 'Space plot of Adaptive/Weights Display' });
+  await weights.getByRole('application').focus();
+  await page.keyboard.press('ArrowRight');
+  await weights.getByText('red, ahead 25 %, left 100 % (1, 1)').waitFor();
+  const axes = await weights.locator('.names span').evaluateAll((all) => all.map((l) => l.innerText.replace('\n', ' ')));
+  for (const name of ['14', '22', 'red', 'cyan', 'magenta', 'ahead 25 %, left 100 %', 'ahead 25 %, right 100 %']) assert.ok(axes.includes(name), `${name} in ${axes}`);
+  await picture(page, 'weights');
   await rates.getByRole('button', { name: 'Set it up' }).click();
   await rates.and(tutorial.locator('.active')).waitFor();
   await page.getByRole('button', { name: 'Max', exact: true }).click();
