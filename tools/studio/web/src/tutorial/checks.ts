@@ -73,7 +73,8 @@ export function readAsk(text: string): Check {
 
 /** Gives the checks of an exercise their labels: what tells their values apart, without the names of items where parameters suffice. */
 export function labelled(checks: Check[]): Check[] {
-  const common = (g: string) => checks.every((c) => !c.given.length || c.given.includes(g));
+  // A prediction may be about one of the values.
+  const common = (g: string) => checks.every((c) => !c.given.length || c.given.includes(g) || (c.asked && 'choice' in c.asked));
   return checks.map((check) => {
     const own = check.given.filter((g) => !common(g)), some = own.length ? own : check.given;
     if (!some.length) return check;
@@ -102,12 +103,12 @@ const said = ({ label }: Check, rest: string) => (label ? `${label}: ${rest}` : 
 /** What is still to be done, without a word about what is expected. */
 export function toDo(check: Check): Finding {
   const { hits, lasts, seen } = check;
-  const task = hits ? `run ${hits.trials} trials, then check` : lasts ? `run ${lasts} s` : seen ? seen.task : 'not tried yet';
+  const task = hits ? `run ${hits.trials} trials, then check` : lasts ? `run ${lasts} s, then check` : seen ? seen.task : 'not tried yet';
   return { right: null, text: said(check, `${task}.`) };
 }
 
 /** What is said while too few trials have finished; undefined when there are enough. */
-const wanting = ({ trials }: Counted, reached: boolean[]) => (reached.length < trials ? `${reached.length} of ${trials} trials have finished. Run the others, then check again.` : undefined);
+const wanting = ({ trials }: Counted, reached: boolean[]) => (reached.length < trials ? `${reached.length} of ${trials} trials have finished. Run the rest, then check again.` : undefined);
 
 /** Those that a check is about. */
 const countedIn = ({ last, trials }: Counted, reached: boolean[]) => reached.slice(0, trials).slice(-last);
@@ -131,7 +132,7 @@ export const findSeen = (check: Check, holds: boolean): Finding => ({ ...toDo(ch
 
 /** Whether the run has lasted, since the last change. */
 export const findLasting = (check: Check, seconds: number): Finding =>
-  seconds >= check.lasts! ? { ...toDo(check), right: true } : { right: null, text: said(check, `${Math.floor(seconds)} of ${check.lasts} s have passed. Run the others, then check again.`) };
+  seconds >= check.lasts! ? { right: true, text: said(check, `you have seen ${check.lasts} s.`) } : { right: null, text: said(check, `${Math.floor(seconds)} of ${check.lasts} s have passed. Run the rest, then check again.`) };
 
 /** What is said of an answer; a wrong one learns where to look. */
 const answered = (check: Check, answer: string, right: boolean, seen = ''): Finding => ({ right, text: said(check, `you said ${answer}${right ? `${seen}: right.` : `, and it is not so. Look again: ${check.asked!.look}.`}`) });
@@ -150,5 +151,5 @@ export const findNumber = (check: Check, answer: number, right: boolean): Findin
 /** What is said of a choice, once what it is about was looked at. */
 export function findChoice(check: Check, answer: string, right: boolean, looked: boolean): Finding {
   const prediction = { ...check, label: '' };
-  return looked ? answered(prediction, `“${answer}”`, right) : { right: null, text: `You said “${answer}”. It is judged after the other lines of this list${check.label ? ` about ${check.label}` : ''}.` };
+  return looked ? answered(prediction, `“${answer}”`, right) : { right: null, text: `You said “${answer}”. It is judged after the ${check.label ? `lines about ${check.label}` : 'other lines of this list'}.` };
 }

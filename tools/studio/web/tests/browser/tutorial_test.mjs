@@ -111,7 +111,7 @@ export default async function({ site, folder, start, open, faults, step }) {
   await reflex.and(tutorial.locator('.active')).waitFor();
   assert.deepEqual(await reflex.getByRole('listitem').allTextContents(), ['Run 30 trials, then check.']); // what is expected is not seen before
   await reflex.getByRole('button', { name: 'Check what I have seen' }).click();
-  await reflex.getByText('0 of 30 trials have finished. Run the others, then check again.').waitFor();
+  await reflex.getByText('0 of 30 trials have finished. Run the rest, then check again.').waitFor();
   await reflex.getByText('Not answered yet: the robot explores until').waitFor();
   await reflex.getByLabel('From all three starts.').check();
   await reflex.getByRole('button', { name: 'Check what I have seen' }).click();

@@ -19,16 +19,17 @@ describe('a check', () => {
   );
   it('is a task until it was tried, which does not say what is found', () => {
     const tasks = ['hits 0.83 ± 0.03 of 12 trials with P.x = 1', 'hits 0.83 of 12 trials', '600 s with P.x = 1', 'find a region when max(A/B) > 0.1'];
-    expect(labelled(tasks.map(readCheck)).map((c) => toDo(c).text)).toEqual(['x = 1: run 12 trials, then check.', 'Run 12 trials, then check.', 'x = 1: run 600 s.', 'Find a region.']);
+    expect(labelled(tasks.map(readCheck)).map((c) => toDo(c).text)).toEqual(['x = 1: run 12 trials, then check.', 'Run 12 trials, then check.', 'x = 1: run 600 s, then check.', 'Find a region.']);
   });
   it('names what tells its values from those of the others', () => {
     const label = (...texts: string[]) => labelled(texts.map((t) => readCheck(`60 s with ${t}`))).map((c) => c.label);
     expect(label('A/B.gain = 0, A/C.gain = 0, D.%-WTA = 0.8', 'A/B.gain = 0, A/C.gain = 0, D.%-WTA = 0.9')).toEqual(['%-WTA = 0.8', '%-WTA = 0.9']);
+    expect(labelled([...['A/B.gain = 0, D.x = 1', 'A/B.gain = 0, D.x = 2'].map((t) => readCheck(`60 s with ${t}`)), readAsk('choice 1 with D.x = 2; it')]).map((c) => c.label)).toEqual(['x = 1', 'x = 2', 'x = 2']);
     expect(label('A/B.gain = 0, A/C.gain = 0')).toEqual(['B.gain = 0, C.gain = 0']);
   });
   it('counts hits, and says what the solution has only when there are enough trials', () => {
     const check = readCheck('hits 0.83 ± 0.03 of 12 trials');
-    expect(findHits(check, run('-+++'))).toEqual({ right: null, text: '4 of 12 trials have finished. Run the others, then check again.' });
+    expect(findHits(check, run('-+++'))).toEqual({ right: null, text: '4 of 12 trials have finished. Run the rest, then check again.' });
     expect(findHits(check, run('-++++-++++++---')).right).toBe(true); // of the first twelve
     expect(findHits(check, run('-'.repeat(12)), true).text).toMatch(/press Stop/);
     expect(findHits(check, run('-++++-++++++'))).toEqual({ right: true, text: 'You have seen 10 hits in 12 trials (83 %): right, the solution has 83 ± 3 %.' });
@@ -46,8 +47,8 @@ describe('a check', () => {
   it('says whether the run has lasted since the last change', () => {
     const check = readCheck('600 s');
     expect(check).toEqual({ given: [], lasts: 600 });
-    expect(findLasting(check, 599.9)).toEqual({ right: null, text: '599 of 600 s have passed. Run the others, then check again.' });
-    expect(findLasting(check, 600)).toEqual({ right: true, text: 'Run 600 s.' });
+    expect(findLasting(check, 599.9)).toEqual({ right: null, text: '599 of 600 s have passed. Run the rest, then check again.' });
+    expect(findLasting(check, 600)).toEqual({ right: true, text: 'You have seen 600 s.' });
   });
 });
 
@@ -63,7 +64,7 @@ describe('a question', () => {
   );
   it('is answered in words: a wrong answer learns where to look, not what is right', () => {
     const check = readAsk('misses of 12 trials; the boxes'), count = check.asked && 'count' in check.asked ? { ...check, asked: check.asked } : undefined;
-    expect(findCount(count!, 2, run('-+++'))).toEqual({ right: null, text: 'You said 2. 4 of 12 trials have finished. Run the others, then check again.' });
+    expect(findCount(count!, 2, run('-+++'))).toEqual({ right: null, text: 'You said 2. 4 of 12 trials have finished. Run the rest, then check again.' });
     expect(findCount(count!, 2, run('-++++-++++++'))).toEqual({ right: true, text: 'You said 2, it was 2 misses in 12 trials: right.' });
     expect(findCount(count!, 3, run('-++++-++++++'))).toEqual({ right: false, text: 'You said 3, and it is not so. Look again: the boxes.' });
   });
@@ -71,7 +72,7 @@ describe('a question', () => {
     const check = readAsk('choice 2; the plot');
     expect(findChoice(check, 'later', true, false)).toEqual({ right: null, text: 'You said “later”. It is judged after the other lines of this list.' });
     expect(findChoice(check, 'later', true, true).right).toBe(true);
-    expect(findChoice({ ...check, label: 'x = 1' }, 'later', true, false).text).toBe('You said “later”. It is judged after the other lines of this list about x = 1.');
+    expect(findChoice({ ...check, label: 'x = 1' }, 'later', true, false).text).toBe('You said “later”. It is judged after the lines about x = 1.');
     expect(findChoice({ ...check, label: 'x = 1' }, 'later', true, true).text).toBe('You said “later”: right.');
     expect(findChoice(check, 'later', false, true).text).toBe('You said “later”, and it is not so. Look again: the plot.');
   });
