@@ -23,7 +23,7 @@ namespace forage {
 
 /// The version of the SDK. It grows whenever a declaration that types see changes, so that plugins that were
 /// built before can no longer be used.
-inline constexpr int sdk_version = 12;
+inline constexpr int sdk_version = 13;
 
 /// The types that a plugin declares.
 struct PluginTypes {
