@@ -90,6 +90,20 @@ NewItem ground_around(const std::vector<WorldItem>& items) {
     return {.kind = "floor", .name = ground, .width = whole(x), .depth = whole(y)};
 }
 
+/// Reports a start pose that is not inside the bounds of trials, with which the world could not run.
+void check_start(const std::vector<WorldItem>& items, const NewItem& start) {
+    const auto it = std::ranges::find(items, ground, &WorldItem::name);
+    if (it == items.end() || it->parts.empty() || it->yaw != 0) return;
+    constexpr double jitter = 0.01;  // of start poses
+    const auto& bounds = it->parts.back();
+    if (bounds.size.size() != 2) return;
+    if (std::abs(start.x - it->x - bounds.x) > bounds.size[0] / 2 - jitter ||
+        std::abs(start.y - it->y - bounds.y) > bounds.size[1] / 2 - jitter)
+        throw std::invalid_argument(
+            fmt::format("a start pose is inside the bounds of {}, {:g} x {:g} m: make them larger first",
+                        ground, bounds.size[0], bounds.size[1]));
+}
+
 /// Reports what a world has only once.
 void check_single(const Opened& here, const std::string& kind) {
     static const std::map<std::string_view, const char*> single = {
@@ -139,6 +153,7 @@ std::string add_to_world(const std::string& text, NewItem item, ModelTexts& mode
     const Opened here(text, models);
     if (!here.tree.world) throw std::invalid_argument("the file has no <world>");
     check_single(here, item.kind);
+    if (item.kind == "start") check_start(items_of_world(text, models), item);
     if (item.name.empty()) item.name = free_name(here, item.kind);
     if (item.kind != "site" && here.has(item.name))
         throw std::invalid_argument(fmt::format("there is already a '{}'", item.name));

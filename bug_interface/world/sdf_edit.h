@@ -62,7 +62,7 @@ struct NewItem {
 };
 /// The text with an item more. `id` becomes its id. The first start pose brings a floor whose bounds end
 /// trials, when the world has none. Throws std::invalid_argument for an unknown kind, for a
-/// name that is taken, and for a second one of what a world has once.
+/// name that is taken, for a second one of what a world has once, and for a start pose outside of the bounds.
 std::string add_to_world(const std::string& text, NewItem item, ModelTexts& models, std::string& id);
 
 // Each of these throws std::invalid_argument when nothing in the world has the id.

@@ -351,6 +351,9 @@ TEST_CASE("what cannot be done to a world is said") {
     CHECK_THROWS_AS(add_to_world(text, {.kind = "tree", .name = ""}, models, id), std::invalid_argument);
     CHECK_THROWS_AS(add_to_world(text, {.kind = "wall", .name = "Bug"}, models, id), std::invalid_argument);
     CHECK_THROWS_AS(add_to_world(text, {.kind = "sun", .name = ""}, models, id), std::invalid_argument);
+    CHECK_THROWS_AS(add_to_world(text, {.kind = "start", .name = "", .x = 2.495}, models, id),
+                    std::invalid_argument);
+    CHECK_NOTHROW(add_to_world(text, {.kind = "start", .name = "", .x = 2.48, .y = -2}, models, id));
     CHECK_THROWS_AS(add_to_world(text, {.kind = "patch", .name = "", .color = "red"}, models, id),
                     std::invalid_argument);
     CHECK_THROWS_AS(set("Wall", "width", "0"), std::invalid_argument);
