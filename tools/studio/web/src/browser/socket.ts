@@ -3,7 +3,7 @@ import type { Socket } from '../connection';
 import { linkedIn } from './link';
 
 interface Opening {
-  open: { system: string; world: string; files: Record<string, string>; /** Whether the robot is to run before all is loaded. */ first: boolean };
+  open: { system: string; world: string; files: Record<string, string>; /** Whether the robot is to run before all is loaded. */ first: boolean; /** The world of a new system that is begun then. */ begin?: string };
 }
 /** What the page asks of the worker, beside messages for the session. */
 export type Wish =
@@ -38,16 +38,14 @@ async function asked(): Promise<Opening> {
 }
 
 const lastOpened = 'forage-opened';
-/** Notes which files are open, for when this page is loaded again; a system without a file is not found then. */
-export function noteOpened(system: string, world: string): void {
-  if (system) sessionStorage.setItem(lastOpened, JSON.stringify({ address: location.href, system, world }));
-  else sessionStorage.removeItem(lastOpened);
-}
+/** Notes which files are open, for when this page is loaded again; the name of a system without a file is empty. */
+export const noteOpened = (system: string, world: string): void => sessionStorage.setItem(lastOpened, JSON.stringify({ address: location.href, system, world }));
 
-/** What the page opens: what its address names, or what was open there before it was loaded again. */
+/** What the page opens: what its address names, or what was open there before it was loaded again. What was not saved of it can be resumed. */
 async function wished(): Promise<Wish> {
   const { open } = await asked(), { address, ...before } = JSON.parse(sessionStorage.getItem(lastOpened) ?? '{}') as { address?: string; system?: string; world?: string };
-  return { open: address === location.href ? { ...open, ...before, first: false } : open };
+  if (address !== location.href) return { open };
+  return { open: { ...open, ...(before.system ? before : { begin: before.world }), first: false } };
 }
 
 /** A socket to a worker with a session. `note` tells the user something. */

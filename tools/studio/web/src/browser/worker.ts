@@ -53,7 +53,7 @@ function work(): void {
   } else if (seconds < 3600) timer = setTimeout(work, seconds * 1000);
 }
 
-async function open({ system, world, files, first }: Extract<Wish, { open: unknown }>['open']): Promise<void> {
+async function open({ system, world, files, first, begin }: Extract<Wish, { open: unknown }>['open']): Promise<void> {
   const rest = first ? null : loadRest(), loaded = await loading;
   await rest;
   for (const [path, text] of Object.entries(files)) {
@@ -63,6 +63,7 @@ async function open({ system, world, files, first }: Extract<Wish, { open: unkno
   const wrong = loaded.ccall('forage_open', 'string', ['string', 'string'], [system, world]) as string;
   if (wrong) throw new Error(wrong);
   engine = loaded;
+  if (begin !== undefined) receive(JSON.stringify({ command: 'new', name: 'New system', from: '', world: begin }));
   work();
   // A call that comes before it is there loads it at once.
   if (first) await loadRest().catch(() => post({ note: 'A part of the simulator could not be loaded. Reload the page when there is a network.' }));

@@ -293,6 +293,8 @@ export default async function({ start, open, onDisk, faults, step }) {
   const here = system('dac_foraging.iqr'), there = system('sec_maze.iqr'), tutorial = page.getByRole('group', { name: 'Tutorial', exact: true });
   const panels = (n) => until(page, `${n} stacks of panels`, (wanted) => document.title.startsWith('DAC') && document.querySelectorAll('.dv-groupview').length === wanted, n);
   await here(); // its file has the path by which it is opened again
+  await page.getByRole('button', { name: 'Layouts of the panels' }).click();
+  await page.getByRole('button', { name: /^Overview/ }).click();
   await panels(4);
   await page.getByRole('button', { name: 'Tutorial', exact: true }).first().click();
   await tutorial.waitFor();

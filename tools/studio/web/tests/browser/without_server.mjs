@@ -30,6 +30,20 @@ const menu = async (page, item) => {
   await page.getByRole('menuitem', { name: new RegExp(`^${item}`) }).click();
 };
 
+/** Waits until the browser keeps the session as it was at a time, or later. */
+const sessionIsKept = (page, since) => eventually('the session is kept', () =>
+  page.evaluate((time) =>
+    new Promise((done) => {
+      indexedDB.open('/home/web_user').onsuccess = ({ target: { result: all } }) => {
+        all.transaction('FILE_DATA').objectStore('FILE_DATA').openCursor().onsuccess = ({ target: { result: file } }) => {
+          const found = file?.key.endsWith('/running.forage') && file.value.timestamp >= time;
+          if (file && !found) return file.continue();
+          all.close();
+          done(found === true);
+        };
+      };
+    }), since));
+
 step('the robot of the tutorial runs');
 let page = await open('');
 await page.getByRole('button', { name: 'Run', exact: true }).click();
@@ -57,18 +71,7 @@ await page.getByRole('button', { name: 'Pause', exact: true }).click();
 await page.getByRole('button', { name: 'Run', exact: true }).waitFor();
 const since = Date.now();
 await page.locator('body').press('.');
-await eventually('the session is kept', () =>
-  page.evaluate((time) =>
-    new Promise((done) => {
-      indexedDB.open('/home/web_user').onsuccess = ({ target: { result: all } }) => {
-        all.transaction('FILE_DATA').objectStore('FILE_DATA').openCursor().onsuccess = ({ target: { result: file } }) => {
-          const found = file?.key.endsWith('/running.forage') && file.value.timestamp >= time;
-          if (file && !found) return file.continue();
-          all.close();
-          done(found === true);
-        };
-      };
-    }), since));
+await sessionIsKept(page, since);
 await page.close();
 page = await open('');
 await page.getByRole('button', { name: 'Resume it' }).click();
@@ -99,6 +102,20 @@ step('what was saved in the other tab is there');
 await menu(linked, 'Open…');
 await linked.getByRole('button', { name: 'mine.iqr', exact: true }).first().waitFor();
 await linked.close();
+
+step('a new system without a file can be resumed when the page is loaded again');
+page = await open('');
+await menu(page, 'New…');
+await page.getByRole('dialog').getByRole('button', { name: 'Create' }).click();
+const changed = Date.now();
+await page.getByLabel('Author', { exact: true }).fill('A student');
+await page.getByLabel('Author', { exact: true }).press('Enter');
+await sessionIsKept(page, changed);
+page.once('dialog', (question) => question.accept());
+await page.reload();
+await page.getByRole('button', { name: 'Resume it' }).click();
+await eventually('what was changed', async () => (await page.getByLabel('Author', { exact: true }).inputValue()) === 'A student');
+await page.close();
 
 step('an exercise of the tutorial sets itself up');
 page = await open('?exercise=2-reactive-layer:2');
