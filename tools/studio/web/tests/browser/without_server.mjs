@@ -31,18 +31,19 @@ const menu = async (page, item) => {
 };
 
 /** Waits until the browser keeps the session as it was at a time, or later. */
-const sessionIsKept = (page, since) => eventually('the session is kept', () =>
-  page.evaluate((time) =>
-    new Promise((done) => {
-      indexedDB.open('/home/web_user').onsuccess = ({ target: { result: all } }) => {
-        all.transaction('FILE_DATA').objectStore('FILE_DATA').openCursor().onsuccess = ({ target: { result: file } }) => {
-          const found = file?.key.endsWith('/running.forage') && file.value.timestamp >= time;
-          if (file && !found) return file.continue();
-          all.close();
-          done(found === true);
+const sessionIsKept = (page, since) =>
+  eventually('the session is kept', () =>
+    page.evaluate((time) =>
+      new Promise((done) => {
+        indexedDB.open('/home/web_user').onsuccess = ({ target: { result: all } }) => {
+          all.transaction('FILE_DATA').objectStore('FILE_DATA').openCursor().onsuccess = ({ target: { result: file } }) => {
+            const found = file?.key.endsWith('/running.forage') && file.value.timestamp >= time;
+            if (file && !found) return file.continue();
+            all.close();
+            done(found === true);
+          };
         };
-      };
-    }), since));
+      }), since));
 
 step('the robot of the tutorial runs');
 let page = await open('');
