@@ -26,11 +26,12 @@ bool has_errors(const std::vector<Document::Problem>& problems) {
                                [](const auto& p) { return p.diagnostic.severity == Severity::error; });
 }
 
-/// Whether two systems differ in names of processes and groups alone, which change no number.
+/// Whether two systems differ in names of processes and groups alone. They change no number, unless a module
+/// plays a table, whose rows are named after them.
 bool differ_in_names(model::System before, const model::System& after, const Registry& registry) {
     for (auto& p : before.processes) {
         const auto* now = find_by(after.processes, p.id, &model::Process::id);
-        if (!now) return false;
+        if (!now || (p.module && p.module->type == "moduleReplay")) return false;
         p.name = now->name;
         for (auto& g : p.groups)
             if (const auto* same = find_by(now->groups, g.id, &model::Group::id)) g.name = same->name;
@@ -247,8 +248,9 @@ void Session::follow_document(const std::string& title, const Equivalent& script
         const bool keeps_past = !waited && live.history.actions().empty() &&
                                 differ_in_names(edited.built, now, live.run->registry());
         auto lost = lost_by_rebuild();
-        if (keeps_past) std::erase(lost, "past");
+        const auto cycle = live.run->cycle();
         edited.current = rebuild(false, keeps_past);
+        if (keeps_past && live.run->cycle() == cycle) std::erase(lost, "past");
         if (edited.current) edited.built = now, ended = std::move(lost);
     };
     if (!edited.document->readable()) {
