@@ -146,7 +146,8 @@ std::string new_item_text(const NewItem& item, bool has_floor, ModelTexts& model
     if (kind == "start") return paint(item, {cylinder(radius(0.2), 0.0001), 0.002}, color("#b3b3b3"));
     if (kind == "floor")  // the bounds are the last collision, below everything
         return fixed(item, 0,
-                     collision(plane(), 0, "floor") + (has_floor ? "" : visual(plane(), color("#b3b3b3"))) +
+                     collision(plane(), 0, "floor") +
+                         (has_floor && item.color.empty() ? "" : visual(plane(), color("#b3b3b3"))) +
                          collision(box(width(5), depth(5), 0.02), -1, "bounds"));
     if (kind == "robot") return included(item, item.uri.empty() ? robot_uri(models) : item.uri);
     if (kind == "model") return included(item, item.uri.empty() ? model_uri(models) : item.uri);
