@@ -37,6 +37,7 @@ export default async function({ forage, site, folder, start, open, onDisk, fault
   await map.getByRole('button').nth(items).waitFor();
   await until(page, 'the form of the wall', () => ![...document.querySelectorAll('[aria-label^="Properties of"] input')].some((i) => i.value === 'GroundPlane'));
   await wall.waitFor();
+  await until(page, 'the focus on the wall', () => document.activeElement.matches('.item.chosen')); // keys are for it
   const name = await field('Name').inputValue();
   assert.equal(await map.getByRole('button').count(), items + 1);
   const before = Number(await field('x, m').inputValue());
