@@ -120,9 +120,10 @@ export function findHits(check: Check, reached: boolean[], learned = false): Fin
   if (more) return { right: null, text: said(check, more) };
   const hits = countedIn(check.hits!, reached).filter((hit) => hit).length;
   const seen = `you have seen ${counted(hits, 'hits')} ${inTrials(check.hits!)} (${percent(hits / last)})`;
-  const expected = `the solution has ${deviation ? `${Math.round(100 * share)} ± ${percent(deviation)}` : percent(share)}`;
-  // Two standard deviations: those of other seeds, or those that chance has in so few trials.
-  const right = Math.abs(hits / last - share) <= 2 * Math.max(deviation, Math.sqrt((share * (1 - share)) / last), 0.05) + 1e-9;
+  // Two standard deviations: those of other seeds, or those that chance has in so few trials; at least a tenth, as a hit more or less is no mistake.
+  const wide = 2 * Math.max(deviation, Math.sqrt((share * (1 - share)) / last), 0.05) + 1e-9;
+  const expected = `the solution has ${percent(share)}, and most seeds have ${percent(Math.max(0, share - wide))} to ${percent(Math.min(1, share + wide))}`;
+  const right = Math.abs(hits / last - share) <= wide;
   const advice = learned ? 'These trials began with what was learned before: if the text does not say so, press Stop, and run them again.' : 'Is all as the text asks for? If so, it may be chance: repeat it with another seed.';
   return { right, text: said(check, right ? `${seen}: right, ${expected}.` : `${seen}, but ${expected}. ${advice}`) };
 }

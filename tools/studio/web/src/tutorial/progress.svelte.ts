@@ -11,17 +11,23 @@ interface Progress {
 }
 const none: Progress = { answers: [], found: [] };
 const key = 'tutorial';
-const read = () => JSON.parse(localStorage.getItem(key) ?? '{}') as Record<string, Progress>;
+function read(): Record<string, Progress> {
+  try {
+    return JSON.parse(localStorage.getItem(key) ?? '{}') as Record<string, Progress>;
+  } catch {
+    return {}; // written by something else
+  }
+}
 let all = $state.raw(read());
 
-/** Changes that of one exercise; undefined forgets it. Other tabs may have kept others. */
+/** Changes the progress of one exercise; undefined forgets it. Other tabs may have kept others. */
 function keep(exercise: string, change: Partial<Progress> | undefined): void {
   const { [exercise]: before = none, ...others } = read();
   all = change ? { ...others, [exercise]: { ...before, ...change } } : others;
   localStorage.setItem(key, JSON.stringify(all));
 }
 
-/** Exercises are named as addresses name them: "3-adaptive-layer:1". */
+/** Exercises are named by their part and what they expect: one that expects something else begins without answers. */
 export const progress = {
   of: (exercise: string): Progress => all[exercise] ?? none,
   /** Whether anything was answered or found. */

@@ -3,7 +3,6 @@ import { arrange, closePlots, openTutorial } from '../presets';
 import type { PanelState } from '../panels/registry';
 import { dock } from '../stores/dock.svelte';
 import { model } from '../stores/model.svelte';
-import { run } from '../stores/run.svelte';
 import { selection } from '../stores/selection.svelte';
 import { command } from '../studio';
 import type { Check } from './checks';
@@ -85,7 +84,8 @@ export async function setUp(setup: Setup): Promise<boolean> {
       // Some parameters are read at the start, and those of a module exist when it is enabled.
       if (!(await command('set', { assignments: [assignment] })) || !(await command('stop'))) return false;
     }
-    if (run.status?.seed !== setup.seed && !(await command('restart', { seed: setup.seed }))) return false;
+    // A system opens with the seed that it had last.
+    if (!(await command('restart', { seed: setup.seed }))) return false;
     if (!(await command('speed', setup.speed === 0 ? { mode: 'free' } : setup.speed === 1 ? { mode: 'real' } : { mode: 'times', value: setup.speed }))) return false;
     const clamped = new Map<string, number[]>();
     for (const clamp of setup.clamp) {

@@ -32,12 +32,12 @@ describe('a check', () => {
     expect(findHits(check, run('-+++'))).toEqual({ right: null, text: '4 of 12 trials have finished. Run the rest, then check again.' });
     expect(findHits(check, run('-++++-++++++---')).right).toBe(true); // of the first twelve
     expect(findHits(check, run('-'.repeat(12)), true).text).toMatch(/press Stop/);
-    expect(findHits(check, run('-++++-++++++'))).toEqual({ right: true, text: 'You have seen 10 hits in 12 trials (83 %): right, the solution has 83 ± 3 %.' });
-    expect(findHits(check, run('------++++++'))).toMatchObject({ right: false, text: expect.stringMatching(/^You have seen 6 hits in 12 trials \(50 %\), but the solution has 83 ± 3 %\. Is all as/) });
+    expect(findHits(check, run('-++++-++++++'))).toEqual({ right: true, text: 'You have seen 10 hits in 12 trials (83 %): right, the solution has 83 %, and most seeds have 61 % to 100 %.' });
+    expect(findHits(check, run('------++++++'))).toMatchObject({ right: false, text: expect.stringMatching(/^You have seen 6 hits in 12 trials \(50 %\), but the solution has 83 %, and most seeds have 61 % to 100 %\. Is all as/) });
   });
   it('looks at the last trials of many', () => {
     const [check] = labelled([readCheck('hits 1 of the last 2 of 4 trials with P.x = 1')]);
-    expect(findHits(check!, run('--+++')).text).toBe('x = 1: you have seen 2 hits in the last 2 trials (100 %): right, the solution has 100 %.');
+    expect(findHits(check!, run('--+++')).text).toBe('x = 1: you have seen 2 hits in the last 2 trials (100 %): right, the solution has 100 %, and most seeds have 90 % to 100 %.');
   });
   it('ticks a task whose condition holds', () => {
     const check = readCheck('find a region when max(A/B) > 0.1');
