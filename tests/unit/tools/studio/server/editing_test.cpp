@@ -1121,6 +1121,22 @@ TEST_CASE("another name keeps the past, unless there are actions in it, which ha
     CHECK(e.session->status()["history"] == json{{"first", 42}, {"last", 42}});
 }
 
+TEST_CASE("another name ends the past where a module plays a table, whose rows have names") {
+    Editor e;
+    const std::string table = (e.folder / "rows.csv").string();
+    std::ofstream(table) << "0,*,out,1\n";
+    const auto p = e.edit({{{"do", "add_process"}, {"name", "Tape"}}})[0];
+    const auto g = e.edit({{{"do", "add_group"}, {"process", p}, {"name", "G"}, {"x", 1}, {"y", 2}}})[0];
+    e.edit({{{"do", "topology"}, {"id", g}, {"width", 1}, {"height", 1}}});
+    e.edit({{{"do", "type"}, {"id", p}, {"part", "module"}, {"type", "moduleReplay"}},
+            {{"do", "parameter"}, {"id", p}, {"name", "file"}, {"value", table}},
+            {{"do", "ports"}, {"id", p}, {"outputs", {{"out", g}}}}});
+    REQUIRE(e.last["document"]["problems"] == json::array());
+    e.result({{"command", "step"}, {"cycles", 40}});
+    e.edit({{{"do", "rename"}, {"id", "bug.light"}, {"name", "Lamp"}}});
+    CHECK(e.last["action"]["ended"] == json({"past"}));
+}
+
 TEST_CASE("an edit of the structure says what it ends: the past, a comparison, a recording") {
     Editor e;
     const auto add = [&](const std::string& id) {
