@@ -109,7 +109,7 @@ function receive(message: ServerMessage): void {
       break;
     case 'world':
       model.world = message.file === null ? null : message;
-      if (inBrowser) noteOpened(editing.file, model.world?.file ?? '');
+      if (inBrowser && editing.message) noteOpened(editing.file, model.world?.file ?? '');
       void loadWorldFile();
       break;
     case 'status':
