@@ -117,6 +117,8 @@ class FileDialog {
   private settle: () => void = () => {};
 
   open(action: FileAction, process: string | null = null): void {
+    // A page that was just loaded may not know its world yet. The answer comes after all that describes the run.
+    if (!run.status) return void request('shipped').then(() => this.open(action, process), () => {});
     this.world = model.world?.file ?? '';
     this.choose(tasks[action](process ?? ''), action);
     if (action === 'open' || action === 'new' || action === 'world') void request('shipped').then((r) => ((this.shipped = r.worlds), (this.templates = r.systems.filter((s) => s.kind === 'template' || s.kind === 'recipe'))), () => {});
