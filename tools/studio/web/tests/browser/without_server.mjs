@@ -108,9 +108,14 @@ step('a new system without a file can be resumed when the page is loaded again')
 page = await open('');
 await menu(page, 'New…');
 await page.getByRole('dialog').getByRole('button', { name: 'Create' }).click();
-const changed = Date.now();
+await page.getByRole('dialog').waitFor({ state: 'detached' }); // then the new system is open
 await page.getByLabel('Author', { exact: true }).fill('A student');
 await page.getByLabel('Author', { exact: true }).press('Enter');
+const oneStep = page.getByRole('button', { name: 'Step one cycle' });
+await oneStep.click();
+await eventually('a cycle after the change', async () => (await cycle(page)) === 1);
+const changed = Date.now(); // what is kept from now on has the change
+await oneStep.click();
 await sessionIsKept(page, changed);
 page.once('dialog', (question) => question.accept());
 await page.reload();
