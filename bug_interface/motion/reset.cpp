@@ -70,7 +70,7 @@ std::optional<ResetPlan> find_reset(const WorldDescription& world, Diagnostics& 
         if (world.trials)
             diagnostics.warning(world.trials->where,
                                 "there are rules of trials, but no start poses, so no trials",
-                                "add models named Reset_0 to Reset_9");
+                                "add a start: a model named Reset_0 to Reset_9");
         return {};
     }
     const Model* ground = find_model(world, "GroundPlane");

@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "bug_interface/simulation/world.h"
 #include "bug_interface/world/sdf_edit.h"
+#include "bug_interface/world/sdf_reader.h"
 #include "core/run/input_error.h"
 
 namespace forage::editing {
@@ -104,6 +106,13 @@ void check_world(const std::string& path, const std::string& text) {
     Diagnostics diagnostics;
     bug::check_world_text(path, text, diagnostics);
     throw_errors(diagnostics);
+}
+
+Diagnostics problems_of_world(const std::string& path, const std::string& text) {
+    Diagnostics diagnostics;
+    if (const auto world = bug::read_world(path, diagnostics, {}, text))
+        bug::World::make(*world, {}, diagnostics);
+    return diagnostics;
 }
 
 }  // namespace forage::editing

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "bug_interface/world/model_texts.h"
+#include "core/base/diagnostic.h"
 #include "tools/api/edit/operation.h"
 
 namespace forage::editing {
@@ -18,5 +19,8 @@ json carry_out_in_world(const json& operation, std::string& text, bug::ModelText
 
 /// Throws InputError when a text of the file `path` is not one of a world.
 void check_world(const std::string& path, const std::string& text);
+
+/// What is wrong with a world of this text, which would be the file `path`, as `forage world` says it.
+Diagnostics problems_of_world(const std::string& path, const std::string& text);
 
 }  // namespace forage::editing

@@ -12,6 +12,7 @@
 #include "tools/api/edit/world_operations.h"
 #include "tools/studio/server/commands/shared.h"
 #include "tools/studio/server/page_paths.h"
+#include "tools/studio/server/problems.h"
 
 namespace forage::studio {
 namespace {
@@ -158,6 +159,7 @@ json describe_world_text(Session& s) {
             {"file", world.path},
             {"dirty", world.text != world.saved},
             {"shipped", s.comes_with_forage(world.path)},
+            {"problems", problems_of(editing::problems_of_world(world.path, world.text))},
             {"items",
              collected(bug::items_of_world(world.text, models), [](const auto& i) { return json_of(i); })}};
 }

@@ -1262,6 +1262,27 @@ TEST_CASE("a system without a robot leaves its world") {
     CHECK(e.last["world"]["file"].is_null());
 }
 
+TEST_CASE("what is wrong with a world is said while it is edited") {
+    ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
+    Editor e;
+    const auto problems = [&](json operations) {
+        e.result({{"command", "world_edit"}, {"operations", std::move(operations)}});
+        return e.last["world_document"]["problems"];
+    };
+    CHECK(problems({{{"do", "add"}, {"kind", "trials"}, {"x", 0}, {"y", 0}}}).empty());
+    const json outside = problems({{{"do", "move"}, {"id", "Reset_0"}, {"x", 30}, {"y", 0}}});
+    REQUIRE(outside.size() == 1);
+    CHECK(outside[0]["severity"] == "error");
+    CHECK(outside[0]["message"].get<std::string>().starts_with("'Reset_0' at (30, 0) is not inside"));
+    json removals = json::array();
+    for (const char* start : {"Reset_0", "Reset_1", "Reset_2"})
+        removals.push_back({{"do", "remove"}, {"id", start}});
+    const json none = problems(removals);
+    REQUIRE(none.size() == 1);
+    CHECK(none[0]["severity"] == "warning");
+    CHECK(none[0]["message"] == "there are rules of trials, but no start poses, so no trials");
+}
+
 TEST_CASE("a world is edited, undone, saved, and the run restarts in it") {
     ::setenv("FORAGE_MODEL_PATH", FORAGE_SOURCE_DIR "/systems/worlds/models", 1);
     Editor e;

@@ -342,8 +342,8 @@ export type WorldProperty = { name: string; label: string; kind: 'text' | 'numbe
 export type WorldItem = { id: string; name: string; kind: string; placed: boolean; unpacks: boolean; x: number; y: number; z: number; yaw: number; parts: WorldPart[]; properties: WorldProperty[] };
 /** What can be added to a world; those with the same heading stand together. */
 export type WorldKind = { kind: string; title: string; group: string };
-/** The items of the world's file. The server sends it after each change of it. */
-export type WorldDocument = { type: 'world_document'; file: string; dirty: boolean; shipped: boolean; items: WorldItem[] };
+/** The items of the world's file, and what is wrong with it. The server sends it after each change of it. */
+export type WorldDocument = { type: 'world_document'; file: string; dirty: boolean; shipped: boolean; problems: Problem[]; items: WorldItem[] };
 
 /** A cell's partners: rows of the same index are one synapse. */
 export type SynapseTable = { total: number; source: number[]; target: number[]; distance: number[]; delay: number[]; strength: number[] };
