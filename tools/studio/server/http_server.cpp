@@ -154,8 +154,8 @@ class HttpServer::Parts::Page : public std::enable_shared_from_this<Page> {
             if (error || !self->socket_.got_text()) return self->end();
             if (!server.admits(token_in(self->take())))
                 return self->refuse(
-                    "This tab has no key, as the address bar hides it. Open the whole address that "
-                    "'forage studio' printed.");
+                    "This tab has no key: the address bar hides it. Use the studio's first tab, or the "
+                    "address that 'forage studio' printed.");
             if (server.pages.size() >= max_pages) return self->refuse("Too many pages are open.");
             server.guests.erase(self->guest_);
             self->deadline_.cancel();

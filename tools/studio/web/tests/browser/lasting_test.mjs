@@ -44,7 +44,7 @@ export default async function({ site, folder, start, open, step }) {
   assert.equal(await again.getByText("This system's last session was not closed.").count(), 0);
 
   step('the page of the first one has no token of the second one, and says what to do');
-  await page.getByText("This tab has no key, as the address bar hides it. Open the whole address that 'forage studio' printed.").waitFor();
+  await page.getByText("This tab has no key: the address bar hides it. Use the studio's first tab, or the address that 'forage studio' printed.").waitFor();
   await gone.waitFor({ state: 'detached' });
   await page.goto(await second.address);
   await until(page, 'cycle 7 in the page of the first one', () => document.querySelector('[aria-label="Moment of the run"]')?.value === '7');
