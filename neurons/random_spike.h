@@ -15,7 +15,8 @@ struct RandomSpike {
 
     static void describe(NeuronSpec<RandomSpike>& s) {
         using T = RandomSpike;
-        s.name("neuronRandomSpike", "Random spike").doc("Spikes at random, without input.");
+        s.name("neuronRandomSpike", "Random spike")
+            .doc("Spikes at random, without input; constant when the probability is 1.");
         s.param("probability", &T::probability)
             .label("Probability")
             .range(0, 1)
