@@ -59,6 +59,8 @@ class Session {
     /// Keeps the session in the user's folder of states from now on, so that a killed program loses at most
     /// the time between two savings. Throws std::runtime_error.
     void keep();
+    /// Saves what has changed since it was saved, for a session that may end now.
+    void save_changes();
     /// Continues the session that was killed. Throws InputError when there is none, or when it cannot go
     /// on.
     void recover();

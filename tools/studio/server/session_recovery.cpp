@@ -60,6 +60,10 @@ void Session::keep() {
     recovery.version = live.version;  // there is nothing to lose yet
 }
 
+void Session::save_changes() {
+    if (recovery.files && recovery.version != live.version) save();
+}
+
 void Session::note_use() const {
     if (recovery.files && !edited.document->path().empty())
         note_recent({edited.document->path(), edited.input.world, edited.input.seed});

@@ -75,4 +75,7 @@ EMSCRIPTEN_KEEPALIVE void forage_receive(const char* message) { session->message
 
 /// Runs the cycles that are due. Returns the seconds until it should be called again.
 EMSCRIPTEN_KEEPALIVE double forage_work() { return session->work(studio::clock_now()); }
+
+/// Keeps what has changed at once, as the page may be gone soon.
+EMSCRIPTEN_KEEPALIVE void forage_keep() { session->save_changes(); }
 }

@@ -8,7 +8,7 @@ interface Opening {
 /** What the page asks of the worker, beside messages for the session. */
 export type Wish =
   | Opening
-  | { hidden: boolean }
+  | { hidden: boolean } // what has changed is kept then
   | { read: string }
   | { write: string; bytes: ArrayBuffer };
 /** What the worker answers, beside messages of the session. */
@@ -89,6 +89,7 @@ export function workerSocket(note: (text: string) => void): Socket {
   worker.onerror = (event) => fail(`The simulator has failed: ${event.message}`);
   const hide = () => worker.postMessage({ hidden: document.hidden });
   document.addEventListener('visibilitychange', hide);
+  addEventListener('beforeunload', hide);
   hide();
   wished().then((wish) => worker.postMessage(wish), (error: Error) => fail(error.message));
   return socket;

@@ -112,8 +112,10 @@ function answer(act: () => Uint8Array | string): void {
 self.onmessage = ({ data }: MessageEvent<Wish | string>) => {
   if (typeof data === 'string') (data.includes('"command":"figure"') ? drawWithFonts : receive)(data);
   else if ('open' in data) return void open(data.open).catch((error: Error) => post({ failed: error.message }));
-  else if ('hidden' in data) hidden = data.hidden;
-  else if ('read' in data) answer(() => read(data.read));
+  else if ('hidden' in data) {
+    hidden = data.hidden;
+    engine?.ccall('forage_keep', null, [], []);
+  } else if ('read' in data) answer(() => read(data.read));
   else answer(() => write(data.write, data.bytes));
   work();
 };

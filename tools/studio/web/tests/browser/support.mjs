@@ -83,6 +83,21 @@ export async function eventually(what, condition) {
   for (const end = performance.now() + patience; !(await condition()); await new Promise((done) => setTimeout(done, 20))) assert.ok(performance.now() < end, `waited in vain: ${what}`);
 }
 
+/** Waits until a browser without a server keeps the session as it was at a time, or later. */
+export const sessionIsKept = (page, since) =>
+  eventually('the session is kept', () =>
+    page.evaluate((time) =>
+      new Promise((done) => {
+        indexedDB.open('/home/web_user').onsuccess = ({ target: { result: all } }) => {
+          all.transaction('FILE_DATA').objectStore('FILE_DATA').openCursor().onsuccess = ({ target: { result: file } }) => {
+            const found = file?.key.endsWith('/running.forage') && file.value.timestamp >= time;
+            if (file && !found) return file.continue();
+            all.close();
+            done(found === true);
+          };
+        };
+      }), since));
+
 /** Types into Ctrl+K, and takes the first that is found. */
 export async function find(page, text) {
   await page.keyboard.press('Control+k');

@@ -1,7 +1,7 @@
 // The studio without a server, from a folder of static files: node without_server.mjs SITE [firefox]; without a name, in Chromium.
 import assert from 'node:assert/strict';
 import { join } from 'node:path';
-import { eventually, launchNamed, serve } from './support.mjs';
+import { eventually, launchNamed, serve, sessionIsKept } from './support.mjs';
 
 const [, , site, name] = process.argv, patience = 60000;
 const { address: home } = await serve(site), browser = await launchNamed(name);
@@ -30,21 +30,6 @@ const menu = async (page, item) => {
   await page.getByRole('menuitem', { name: new RegExp(`^${item}`) }).click();
 };
 
-/** Waits until the browser keeps the session as it was at a time, or later. */
-const sessionIsKept = (page, since) =>
-  eventually('the session is kept', () =>
-    page.evaluate((time) =>
-      new Promise((done) => {
-        indexedDB.open('/home/web_user').onsuccess = ({ target: { result: all } }) => {
-          all.transaction('FILE_DATA').objectStore('FILE_DATA').openCursor().onsuccess = ({ target: { result: file } }) => {
-            const found = file?.key.endsWith('/running.forage') && file.value.timestamp >= time;
-            if (file && !found) return file.continue();
-            all.close();
-            done(found === true);
-          };
-        };
-      }), since));
-
 step('the robot of the tutorial runs');
 let page = await open('');
 await page.getByRole('button', { name: 'Run', exact: true }).click();
@@ -57,12 +42,14 @@ const hide = (hidden) =>
     Object.defineProperty(document, 'hidden', { configurable: true, get: () => is });
     document.dispatchEvent(new Event('visibilitychange'));
   }, hidden);
+const hidden = Date.now();
 await hide(true);
 await eventually('the run rests', async () => {
   const before = await cycle(page);
   await page.evaluate(() => new Promise((done) => setTimeout(done, 500)));
   return (await cycle(page)) === before;
 });
+await sessionIsKept(page, hidden); // a browser may discard the page
 const rested = await cycle(page);
 await hide(false);
 await eventually('the run continues', async () => (await cycle(page)) > rested);
