@@ -65,6 +65,7 @@ constexpr CodeForm code_forms[] = {
     {Op::floor, "std::floor({})"},
     {Op::round, "std::round({})"},
 };
+static_assert(std::size(code_forms) + 2 == Formula::ops, "each has a form, but for numbers and names");
 
 /// A formula in C++; `name_of` says what its names are there.
 template <class NameOf>
