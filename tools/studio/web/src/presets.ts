@@ -83,11 +83,14 @@ function build(beside: boolean): void {
 }
 
 /** The panel in question in the largest place, plots at its right, and the arena below it or below them, with the diagram behind it. */
-function around(large: PanelState, others: PanelState[]): void {
+function around(large: PanelState, plots: PanelState[]): void {
   const api = dock.api!, { main, width: all } = begin(large);
+  // From *Trials* the exercise is run: it is in sight also where some plots are behind others.
+  const trials = (p: PanelState) => p.kind === 'trials', others = [...plots.filter(trials), ...plots.filter((p) => !trials(p))];
   const views: PanelState[] = ([{ kind: 'arena' }, { kind: 'diagram' }] as PanelState[]).filter((p) => p.kind !== large.kind && (p.kind !== 'arena' || model.world));
-  if (frame.room !== 'wide') {
-    const named = large.kind === 'diagram', half = Math.round(all / 2);
+  const named = large.kind === 'diagram';
+  if (frame.small || (frame.room === 'narrow' && (named || others.length < 2))) {
+    const half = Math.round(all / 2);
     // The names in a diagram need room: on a small window it stands alone. Else the robot, or what is measured of it, is in sight beside the panel in question.
     const below = { beside: main, direction: 'below' as const, height: Math.round(api.height * (named ? 0.35 : 0.43)) }, right = { beside: main, direction: 'right' as const, width: half };
     const together = frame.small && large.kind === 'arena', companions = together ? [...others, ...views] : views;
@@ -99,10 +102,13 @@ function around(large: PanelState, others: PanelState[]): void {
     api.getPanel(main)?.api.setActive();
     return;
   }
-  const width = Math.round(all * 0.4);
+  const width = Math.round(all * 0.4), fit = Math.max(1, Math.floor(api.height / 200));
   const right: string[] = [];
   const column = () => (right.length ? { beside: right[right.length - 1], direction: 'below' as const } : { beside: main, direction: 'right' as const, width });
-  for (const p of others) right.push(dock.open(p, column())!);
+  for (const p of others) {
+    if (right.length < fit) right.push(dock.open(p, column())!);
+    else dock.open(p, { beside: right[fit - 1], inactive: true });
+  }
   // A single plot leaves room for the arena below it.
   let view: string | null = null;
   for (const p of views) {

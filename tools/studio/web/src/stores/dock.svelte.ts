@@ -111,18 +111,21 @@ class Dock {
     if (!api || api.totalPanels === 0) return;
     const active = api.activePanel, main = this.main, panels = [...api.panels];
     const text = panels.filter((p) => kindOf(p) === 'tutorial'), others = panels.filter((p) => !text.includes(p));
-    const put = (some: typeof panels, direction?: 'below' | 'left') => {
+    const put = (some: typeof panels, ...place: Parameters<DockviewApi['addGroup']>) => {
       if (some.length === 0) return null;
-      const group = api.addGroup(direction && { direction }) as DockviewGroupPanel;
+      const group = api.addGroup(...place) as DockviewGroupPanel;
       for (const p of some) p.api.moveTo({ group, skipSetActive: p !== some[0] });
       return group;
     };
     const above = room === 'small' || !main ? others : before === 'wide' ? [...main.group.panels] : [main], below = others.filter((p) => !above.includes(p));
+    // Beside the tutorial, what it asks about is in sight with the arena.
+    const views = text.length ? below.filter((p) => !isPlot(p.params as PanelState)) : [];
     put(above);
-    put(below, 'below');
-    const beside = put(text, room === 'small' ? 'below' : 'left');
+    const first = put(views, { direction: 'below' });
+    put(below.filter((p) => !views.includes(p)), first ? { referenceGroup: first, direction: 'right' } : { direction: 'below' });
+    const beside = put(text, { direction: room === 'small' ? 'below' : 'left' });
     if (room === 'narrow') beside?.api.setSize({ width: tutorialWidth(api.width) });
-    below.find((p) => kindOf(p) === (beside ? 'arena' : 'diagram'))?.api.setActive(); // as in a new layout
+    for (const kind of ['trials', beside ? 'arena' : 'diagram']) below.find((p) => kindOf(p) === kind)?.api.setActive(); // as in a new layout
     active?.api.setActive();
   }
 

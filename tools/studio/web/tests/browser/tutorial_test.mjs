@@ -218,14 +218,37 @@ export default async function({ site, folder, start, open, faults, step }) {
     for (const tab of ['Contextual/Proposal raster', 'Entropy over time', 'Trials', 'Diagram', 'Arena']) {
       await page.locator('.dv-tab', { hasText: tab }).click();
       if (width > 720) assert.deepEqual(await largest(), ['Trials'], `the largest panel at ${width}`);
-      await until(page, `${tab} at ${width} x ${height}`, (t) => [...document.querySelectorAll('.dv-groupview')].some((g) => g.querySelector('.dv-active-tab')?.textContent.includes(t) && g.offsetHeight > 200 && g.offsetWidth > 300), tab);
+      await until(page, `${tab} at ${width} x ${height}`, (t) => [...document.querySelectorAll('.dv-groupview')].some((g) => g.querySelector('.dv-active-tab')?.textContent.includes(t) && g.offsetHeight > 200 && g.offsetWidth > 250), tab);
     }
     await until(page, 'the trials', () => [...document.querySelectorAll('.readings > div')].some((d) => d.textContent.startsWith('trials') && d.getBoundingClientRect().bottom <= d.parentElement.getBoundingClientRect().bottom));
     const strip = await page.evaluate(() => [...document.querySelectorAll('footer > *')].filter((e) => e.offsetWidth).map((e) => e.getBoundingClientRect().right));
     assert.ok(Math.max(...strip) <= width, `the status strip at ${width}`);
     await picture(page, `tutorial-${width}`);
   }
+  const seen = (titles) =>
+    until(page, `${titles} in sight`, (all) => {
+      const shown = [...document.querySelectorAll('.dv-groupview')].filter((g) => g.offsetParent && g.offsetHeight > 200 && g.offsetWidth > 250).map((g) => g.querySelector('.dv-active-tab').textContent.trim());
+      return all.every((title) => shown.includes(title));
+    }, titles);
+  await page.setViewportSize({ width: 1024, height: 700 });
+  for (const [part, number, titles] of [['2', 2, ['Diagram', 'Arena', 'Trials']], ['3', 3, ['discrepancy over time', 'Arena', 'Trials']], ['4', 0, ['Contextual/Empty', 'Arena', 'Trials', 'Contextual/Selected', 'Discrepancy over time']]]) {
+    await tutorial.getByRole('button', { name: part, exact: true }).click();
+    await tutorial.locator(`[data-open="${number}"]`).click();
+    await tutorial.locator(`.setup.active [data-open="${number}"]`).waitFor();
+    await seen(titles);
+  }
+
+  step('a window of another size has the trials of an exercise in sight, too');
+  await page.evaluate(() => Object.keys(localStorage).filter((k) => k.startsWith('layout ')).forEach((k) => localStorage.removeItem(k))); // no earlier arrangement comes back
   await page.setViewportSize({ width: 1400, height: 900 });
+  await tutorial.locator('[data-open="0"]').click();
+  await until(page, 'the panels of the exercise', () => document.querySelectorAll('.dv-groupview').length === 6);
+  for (const [width, height] of [[1024, 700], [1400, 900]]) {
+    await page.setViewportSize({ width, height });
+    await seen(['Contextual/Empty', 'Arena', 'Trials']);
+  }
+
+  await tutorial.getByRole('button', { name: '5', exact: true }).click();
   await tutorial.locator('[data-open="0"]').click();
   await until(page, 'as many trials as the exercise asks for', () => document.querySelector('input[aria-label="Number of trials"]')?.value === '100');
   await picture(page, 'tutorial-trials');
