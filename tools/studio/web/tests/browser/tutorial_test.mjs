@@ -238,14 +238,20 @@ export default async function({ site, folder, start, open, faults, step }) {
     await seen(titles);
   }
 
-  step('a window of another size has the trials of an exercise in sight, too');
+  step('a window of another size has the exercise that is set up in sight, and its trials');
   await page.evaluate(() => Object.keys(localStorage).filter((k) => k.startsWith('layout ')).forEach((k) => localStorage.removeItem(k))); // no earlier arrangement comes back
   await page.setViewportSize({ width: 1400, height: 900 });
   await tutorial.locator('[data-open="0"]').click();
   await until(page, 'the panels of the exercise', () => document.querySelectorAll('.dv-groupview').length === 6);
-  for (const [width, height] of [[1024, 700], [1400, 900]]) {
+  const exercise = tutorial.locator('.setup.active');
+  await exercise.evaluate((e) => (e.parentElement.scrollTop += e.getBoundingClientRect().top - e.parentElement.getBoundingClientRect().top - 0.4 * e.parentElement.clientHeight));
+  for (const [width, height] of [[1024, 700], [700, 600], [1024, 700], [1400, 900]]) {
     await page.setViewportSize({ width, height });
-    await seen(['Contextual/Empty', 'Arena', 'Trials']);
+    if (width > 720) await seen(['Contextual/Empty', 'Arena', 'Trials']);
+    await eventually(`the exercise in sight at ${width}`, () => exercise.evaluate((e) => {
+      const top = e.getBoundingClientRect().top - e.parentElement.getBoundingClientRect().top;
+      return top > -2 && top < 0.5 * e.parentElement.clientHeight;
+    }));
   }
 
   await tutorial.getByRole('button', { name: '5', exact: true }).click();
