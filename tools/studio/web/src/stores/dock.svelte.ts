@@ -127,6 +127,7 @@ class Dock {
     if (room === 'narrow') beside?.api.setSize({ width: tutorialWidth(api.width) });
     for (const kind of ['trials', beside ? 'arena' : 'diagram']) below.find((p) => kindOf(p) === kind)?.api.setActive(); // as in a new layout
     active?.api.setActive();
+    if (this.seen('world')) this.makeRoomForWorld();
   }
 
   /** Places the panels that are open as an earlier arrangement had them. What it does not have is opened beside the others. */
@@ -144,11 +145,16 @@ class Dock {
     if (active) this.find(active)?.api.setActive();
   }
 
-  /** Opens the editor of the world, with room for its map and its form. */
+  /** Opens the editor of the world. */
   openWorld(): void {
-    if (!this.openBeside({ kind: 'world' }, 'arena') || frame.small) return;
-    const { api } = this.of('world')!, all = this.api!;
-    api.setSize({ width: Math.max(api.width, Math.min(680, 0.5 * all.width)), height: Math.max(api.height, Math.min(620, 0.72 * all.height)) });
+    if (this.openBeside({ kind: 'world' }, 'arena')) this.makeRoomForWorld();
+  }
+  /** Gives the editor of the world room for its map and its form, beside columns that can still be read. */
+  private makeRoomForWorld(): void {
+    const { api, group } = this.of('world')!, all = this.api!;
+    const place = (g: DockviewGroupPanel) => g.element.getBoundingClientRect(), { top, bottom } = place(group);
+    const beside = new Set(all.groups.filter((g) => g !== group && place(g).top < bottom && place(g).bottom > top).map((g) => place(g).left));
+    api.setSize({ width: Math.max(api.width, Math.min(680, all.width - 190 * beside.size)), height: Math.max(api.height, Math.min(620, 0.72 * all.height)) });
   }
 
   /** Says that the arena or the diagram is closed, which no plot leads to, with the way back to its place. Called before it is closed. */

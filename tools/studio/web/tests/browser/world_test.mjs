@@ -141,7 +141,7 @@ export default async function({ forage, site, folder, start, open, onDisk, fault
   assert.deepEqual(await world.getByRole('toolbar').getByRole('group').evaluateAll((all) => all.map((g) => g.ariaLabel)), ['Robots', 'Obstacles', 'Floor', 'Targets', 'Rules and light']);
   assert.equal(await world.getByRole('toolbar').locator('button svg').count(), await world.getByRole('toolbar').getByRole('button').count());
 
-  step('the form is in sight in a smaller window');
+  step('the map is wide, and the form in sight, in a smaller window');
   for (const [width, height] of [[1400, 900], [1024, 700], [700, 600]]) {
     await page.setViewportSize({ width, height });
     for (const dark of [false, true]) {
@@ -150,6 +150,8 @@ export default async function({ forage, site, folder, start, open, onDisk, fault
     }
     const form = await world.getByRole('group', { name: `Properties of ${name}`, exact: true }).boundingBox();
     assert.ok(form && form.y >= 0 && form.y + 60 <= height, `the form at ${width} x ${height}: ${JSON.stringify(form)}`);
+    const { clientWidth, clientHeight } = await map.evaluate(({ clientWidth, clientHeight }) => ({ clientWidth, clientHeight }));
+    assert.ok(clientWidth >= 420 && clientHeight >= 250, `the map at ${width} x ${height}: ${clientWidth} x ${clientHeight}`);
   }
   await accessible(page, 'dark');
   await page.emulateMedia({ colorScheme: 'light' });
