@@ -51,6 +51,18 @@ CairoSurface picture_of(const bug::FloorTexture& floor, int n) {
     return out;
 }
 
+/// The floors with pictures; none when one cannot be read, which the camera reports.
+std::vector<const bug::FloorSurface*> floors_of(const bug::World& world) {
+    std::vector<const bug::FloorSurface*> out;
+    try {
+        for (const auto& floor : world.scene()->floors())
+            if (floor.texture.width() * floor.texture.height() > 1) out.push_back(&floor);
+    } catch (const std::exception&) {
+        out.clear();
+    }
+    return out;
+}
+
 }  // namespace
 
 bool has_homes(const bug::World& world) {
@@ -87,6 +99,22 @@ WorldMap::WorldMap(const bug::World& world, const Box& extra, double pixels, dou
     scale_ = pixels / view_.sizes().maxCoeff();
 }
 
+WorldMap WorldMap::with_floors(const bug::World& world, double pixels) {
+    constexpr double near = 1.5;  // m
+    WorldMap map(world, {}, pixels, 0, 0);
+    if (!world.reset_plan()) return map;  // what lies outside of its walls is not reached
+    const Box around(map.view_.min().array() - near, map.view_.max().array() + near);
+    for (const auto* floor : floors_of(world)) {
+        const Eigen::Vector2d at(floor->pose.x, floor->pose.y);
+        const Eigen::Matrix2d turn = Eigen::Rotation2Dd(floor->pose.yaw).toRotationMatrix().cwiseAbs();
+        const Eigen::Vector2d half = turn * Eigen::Vector2d(floor->size_x, floor->size_y) / 2;
+        const Box box(at - half, at + half);
+        if (around.contains(box)) map.view_.extend(box);
+    }
+    map.scale_ = pixels / map.view_.sizes().maxCoeff();
+    return map;
+}
+
 Axes WorldMap::axes() const {
     return {{left_, top_, width(), height()},
             {view_.min().x(), view_.max().x()},
@@ -95,12 +123,7 @@ Axes WorldMap::axes() const {
 
 void WorldMap::draw_floors(Canvas& canvas) const {
     canvas.fill(left_, top_, width(), height(), {0.5, 0.5, 0.5});
-    try {
-        for (const auto& floor : world_.scene()->floors())
-            if (floor.texture.width() * floor.texture.height() > 1) draw_floor(canvas, floor);
-    } catch (const std::exception&) {
-        // The map is drawn without the floor; the camera reports that its picture cannot be read.
-    }
+    for (const auto* floor : floors_of(world_)) draw_floor(canvas, *floor);
 }
 
 void WorldMap::draw_ground(Canvas& canvas) const {

@@ -23,6 +23,8 @@ class WorldMap {
     /// The map contains the bounds, walls, targets, robots and `extra` (m), with a margin. Its longer side
     /// has `pixels` pixels; its upper left corner is at (left, top).
     WorldMap(const bug::World& world, const Box& extra, double pixels, double left, double top);
+    /// The map of an arena: also contains the whole of each floor that ends near the bounds of trials.
+    static WorldMap with_floors(const bug::World& world, double pixels);
 
     double width() const { return view_.sizes().x() * scale_; }   ///< pixels
     double height() const { return view_.sizes().y() * scale_; }  ///< pixels

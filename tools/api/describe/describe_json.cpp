@@ -243,7 +243,7 @@ json describe_world(const bug::World& world) {
                                 return solid_of(v.visual.solid, v.visual.material.diffuse);
                             })}});
     }
-    const auto view = plot::WorldMap(world, {}, 1000, 0, 0).view();
+    const auto view = plot::WorldMap::with_floors(world, 1000).view();
     json bounds = nullptr;
     if (const auto plan = world.reset_plan())
         bounds = {plan->bounds.min().x(), plan->bounds.min().y(), plan->bounds.max().x(),

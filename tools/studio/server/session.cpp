@@ -48,7 +48,7 @@ json read_layout(const Run& run, const std::string& path) {
 
 /// The floors, with what never moves or without it, exactly on the view of a map.
 plot::Picture ground_picture(const bug::World& world, bool solids) {
-    const plot::WorldMap map(world, {}, 1600, 0, 0);
+    const auto map = plot::WorldMap::with_floors(world, 1600);
     return {std::floor(map.width()), std::floor(map.height()), [map, solids](plot::Canvas& canvas) {
                 solids ? map.draw_ground(canvas) : map.draw_floors(canvas);
             }};

@@ -185,7 +185,7 @@ json example_picture(Session& s, const Request& r) {
     const auto loaded = checked(diagnostics, load(input, diagnostics));
     plot::Picture picture;
     if (const auto* world = loaded->world.get()) {
-        const plot::WorldMap map(*world, {}, pixels, 0, 0);
+        const auto map = plot::WorldMap::with_floors(*world, pixels);
         picture = {map.width(), map.height(), [map, robots = world->bugs()](plot::Canvas& canvas) {
                        map.draw_ground(canvas), map.draw_movable_objects(canvas), map.draw_targets(canvas);
                        for (std::size_t i = 0; i < robots; ++i) map.draw_robot(canvas, i, false);

@@ -86,6 +86,16 @@ export default async function({ context, start, open, faults, step }) {
   await accessible(page);
   await arena.getByRole('button', { name: '3-D' }).click();
   await arena.getByRole('application', { name: /from above/ }).waitFor();
+
+  step('the whole floor of an arena without walls around it is seen, from one edge to the other');
+  const basic = await shown(await open(await start().address));
+  await basic.page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
+  const { x, y, width, height } = await basic.view.boundingBox();
+  for (const [at, edge] of [[4, (v) => v > 3.98], [height - 4, (v) => v < -3.98]]) {
+    await basic.page.mouse.move(x + width / 2, y + at);
+    await eventually(`the edge at ${at}`, async () => edge(Number(/, (-?[\d.]+) m/.exec(await basic.arena.locator('.where').last().textContent())?.[1])));
+  }
+  await basic.page.close();
   assert.deepEqual(faults, []);
 
   step('without WebGL the arena says so, and is shown from above');
