@@ -29,5 +29,15 @@ const changes = (a: Done) => a.generation !== undefined && !idle.includes(a.comm
 /** What was done last to this course of the run; undefined when nothing was. */
 export const lastChange = (log: Done[], epoch: number | undefined): Done | undefined => [...log].reverse().find((a) => a.epoch === epoch && a.cycle > 0 && changes(a));
 
-/** What was changed after an entry of the log, as titles, each once. */
-export const changedSince = (log: Done[], mark: Done | undefined): string[] => [...new Set(log.slice(mark ? log.indexOf(mark) + 1 : 0).filter(changes).map((a) => a.title))];
+/** What was changed after an entry of the log and still stands, as titles, each once. */
+export function changedSince(log: Done[], mark: Done | undefined): string[] {
+  const titles: string[] = [];
+  for (const { title } of log.slice(mark ? log.indexOf(mark) + 1 : 0).filter(changes)) {
+    // Undoing takes back the step of this title, and redoing the undoing.
+    const [, way, step] = /^(undo|redo): ([^]*)$/.exec(title) ?? [];
+    const taken = way ? titles.lastIndexOf(way === 'undo' ? step! : `undo: ${step}`) : -1;
+    if (taken >= 0) titles.splice(taken, 1);
+    else titles.push(way === 'redo' ? step! : title);
+  }
+  return [...new Set(titles)];
+}

@@ -198,7 +198,12 @@ export default async function({ site, folder, start, open, faults, step }) {
 
   step('the trials of the run before stay in sight, and the last ones are counted');
   await page.getByRole('button', { name: 'Stop', exact: true }).click();
-  await page.getByText('Before: 10 of 12').waitFor();
+  const before = page.getByText('Before: 10 of 12'), changed = before.filter({ hasText: /changed since: .*eta = 0.005/ });
+  await before.waitFor();
+  await rates.getByRole('button', { name: 'Adaptive.eta = 0.005' }).click();
+  await changed.waitFor();
+  await page.getByRole('button', { name: 'Undo' }).click();
+  await changed.waitFor({ state: 'detached' }); // what was undone is not changed
   await page.getByLabel('Number of trials').fill('60');
   await page.getByLabel('Number of trials').press('Enter');
   await page.getByText('of 60 reached the target').waitFor();
@@ -248,10 +253,11 @@ export default async function({ site, folder, start, open, faults, step }) {
   for (const [width, height] of [[1024, 700], [700, 600], [1024, 700], [1400, 900]]) {
     await page.setViewportSize({ width, height });
     if (width > 720) await seen(['Contextual/Empty', 'Arena', 'Trials']);
-    await eventually(`the exercise in sight at ${width}`, () => exercise.evaluate((e) => {
-      const top = e.getBoundingClientRect().top - e.parentElement.getBoundingClientRect().top;
-      return top > -2 && top < 0.5 * e.parentElement.clientHeight;
-    }));
+    await eventually(`the exercise in sight at ${width}`, () =>
+      exercise.evaluate((e) => {
+        const top = e.getBoundingClientRect().top - e.parentElement.getBoundingClientRect().top;
+        return top > -2 && top < 0.5 * e.parentElement.clientHeight;
+      }));
   }
 
   await tutorial.getByRole('button', { name: '5', exact: true }).click();

@@ -17,3 +17,13 @@ it('what was changed since is named once, without runs and files', () => {
   expect(changedSince(log, log[5])).toEqual([]);
   expect(changedSince(log, undefined)).toEqual(['A.x = 1', 'A.y = 2', 'B']);
 });
+
+it('what was undone is not changed, until it is done again', () => {
+  const since = (...titles: string[]) => changedSince(titles.map((title) => ({ command: 'set', title, generation: 1 }) as Done), undefined);
+  expect(since('x = 1', 'x = 2', 'undo: x = 2')).toEqual(['x = 1']);
+  expect(since('x = 1', 'x = 2', 'undo: x = 2', 'undo: x = 1')).toEqual([]);
+  expect(since('x = 1', 'undo: x = 1', 'redo: x = 1')).toEqual(['x = 1']);
+  // A step of before is taken back, and done again.
+  expect(since('undo: x = 1')).toEqual(['undo: x = 1']);
+  expect(since('undo: x = 1', 'redo: x = 1')).toEqual([]);
+});
