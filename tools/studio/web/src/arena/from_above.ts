@@ -9,7 +9,7 @@ type View = { s: number; px(x: number): number; py(y: number): number; wx(p: num
 /** Shows a rectangle of the world, with an edge around it, or a part of it around a centre. */
 export function viewOf(box: number[], width: number, height: number, zoom: number, centre: { x: number; y: number }): View {
   const [x0, y0, x1, y1] = box as [number, number, number, number];
-  const s = Math.min((width - 8) / (x1 - x0), (height - 8) / (y1 - y0)) * zoom;
+  const s = 0.98 * Math.min(width / (x1 - x0), height / (y1 - y0)) * zoom;
   return {
     s,
     px: (x) => width / 2 + (x - centre.x) * s,

@@ -91,7 +91,7 @@ export default async function({ context, start, open, faults, step }) {
   const basic = await shown(await open(await start().address));
   await basic.page.getByRole('group', { name: 'Space plot of Bug/Motor' }).waitFor();
   const { x, y, width, height } = await basic.view.boundingBox();
-  for (const [at, edge] of [[4, (v) => v > 3.98], [height - 4, (v) => v < -3.98]]) {
+  for (const [at, edge] of [[4, (v) => v > 3.95], [height - 4, (v) => v < -3.95]]) {
     await basic.page.mouse.move(x + width / 2, y + at);
     await eventually(`the edge at ${at}`, async () => edge(Number(/, (-?[\d.]+) m/.exec(await basic.arena.locator('.where').last().textContent())?.[1])));
   }

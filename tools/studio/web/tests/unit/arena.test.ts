@@ -134,8 +134,8 @@ describe('keys', () => {
 
 describe('places', () => {
   it('of the view from above have north up, and fit', () => {
-    const v = viewOf([-4, -2, 4, 2], 808, 600, 1, { x: 0, y: 0 });
-    expect([v.s, v.px(4), v.py(2), v.wx(4), v.wy(v.py(1.5))]).toEqual([100, 804, 100, -4, 1.5]);
+    const v = viewOf([-4, -2, 4, 2], 800, 600, 1, { x: 0, y: 0 });
+    expect([v.s, v.px(4), v.py(2), v.wx(8), v.wy(v.py(1.5))]).toEqual([98, 792, 104, -4, 1.5]);
   });
   it('of the parts of an object turn with it', () => {
     const [x, y, yaw] = placed(solid('box', [1, 1, 1], { x: 1, yaw: 0.1 }), { x: 2, y: 3, yaw: Math.PI / 2, resetting: false });
