@@ -256,6 +256,19 @@ export default async function({ site, start, open, faults, step }) {
   await diagram.locator('.svelte-flow__node[data-id]', { hasText: 'GPS' }).first().dblclick();
   await other.getByRole('group', { name: 'Space plot of Bug/GPS' }).waitFor();
   await diagram.waitFor();
+
+  step('in a small window, one press beside the form of what was clicked shows a plot; Escape and its button close it, too');
+  await other.setViewportSize(sizes[2]);
+  const plot = other.locator('.dv-tab', { hasText: 'Bug/Light' }), form = inspector(other);
+  const ways = [() => other.keyboard.press('Escape'), () => form.getByRole('button', { name: 'Close the inspector' }).click(), () => plot.click()];
+  for (const [i, close] of ways.entries()) {
+    await other.locator('.dv-tab', { hasText: 'Diagram' }).click();
+    await diagram.locator('.svelte-flow__node[data-id]', { hasText: ['Sensor', 'GPS', 'Sensor'][i] }).first().click();
+    await form.waitFor();
+    await close();
+    await form.waitFor({ state: 'detached' });
+  }
+  await other.getByRole('group', { name: 'Space plot of Bug/Light' }).waitFor();
   await other.setViewportSize(sizes[0]);
 
   step('the tutorial shows the same paragraph in windows of all sizes, behind another tab, and when it is opened again');
