@@ -246,8 +246,26 @@ export default async function({ site, folder, context, start, open, faults, step
     assert.equal(await below(), gridAt);
   }
   assert.equal(await page.evaluate(() => String(getSelection())), '');
+
+  step('Escape clears the cells that are marked; a warning above leaves them and the button where they are');
+  const add = inspector.getByRole('button', { name: 'Add tuple' });
+  const mark = async () => {
+    for (const [side, cell] of [['Source', 3], ['Target', 2]]) await cellOf(side, cell).click();
+    assert.ok(await add.isEnabled());
+  };
+  const places = () => Promise.all([cellOf('Source', 3), add].map(async (e) => Math.round((await e.boundingBox()).y)));
+  await mark();
+  await page.keyboard.press('Escape');
+  assert.equal(await inspector.getByRole('checkbox', { checked: true }).count(), 0);
+  assert.ok(await add.isDisabled());
+  await mark();
+  const worked = await places();
+  await add.click();
+  await inspector.getByText('more than once').waitFor();
+  await until(page, 'the cells are at their place', (y) => Math.abs(document.querySelector('[data-grid="Source"] [data-cell="3,1"]').getBoundingClientRect().y - y) <= 1, worked[0]);
+  for (const [i, y] of (await places()).entries()) assert.ok(Math.abs(y - worked[i]) <= 1, `${y} instead of ${worked[i]}`);
   await canvas.focus();
-  for (let i = 0; i < 2; i++) await page.keyboard.press('Control+z');
+  for (let i = 0; i < 3; i++) await page.keyboard.press('Control+z');
 
   step('tuples come from a file');
   await find(page, 'CR to Threshold CR');
