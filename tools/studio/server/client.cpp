@@ -59,7 +59,7 @@ std::optional<std::string> Client::frame(Run& run, std::uint64_t version, std::u
         end = aligned(end);
         put(out, number), put(out, c.rows), put(out, c.columns);
         put(out, static_cast<std::uint8_t>(c.type));
-        put(out, static_cast<std::uint8_t>((c.gap ? 1 : 0) | (c.pairs ? 2 : 0)));
+        put(out, static_cast<std::uint8_t>((c.gap ? 1 : 0) | (c.joined ? 2 : 0)));
         put(out, std::uint16_t{0}), put(out, c.lowest), put(out, c.highest);
         put(out, static_cast<std::uint32_t>(end)), put(out, static_cast<std::uint32_t>(c.bytes.size()));
         end += c.bytes.size();

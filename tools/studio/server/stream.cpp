@@ -1,6 +1,7 @@
 #include "tools/studio/server/stream.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -22,11 +23,11 @@ std::string bytes_of(std::span<const double> numbers) {
     return out;
 }
 
-/// The lowest and highest of the finite numbers; of rows of `row` numbers without the first, the cycle.
-void set_range(Chunk& chunk, std::span<const double> numbers, std::size_t row) {
+/// The lowest and highest of the finite numbers, in rows of `row` numbers without the first `head`.
+void set_range(Chunk& chunk, std::span<const double> numbers, std::size_t row = 1, std::size_t head = 0) {
     float low = std::numeric_limits<float>::infinity(), high = -low;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        if (row > 0 && i % row == 0) continue;
+        if (i % row < head) continue;
         if (const auto v = static_cast<float>(numbers[i]); std::isfinite(v))
             low = std::min(low, v), high = std::max(high, v);
     }
@@ -45,7 +46,7 @@ const Chunk& SharedSource::chunk(std::uint64_t version) {
     const auto all = numbers(version);
     chunk_.type = source_.type;
     chunk_.rows = source_.rows, chunk_.columns = source_.columns;
-    set_range(chunk_, all, 0);
+    set_range(chunk_, all);
     chunk_.bytes = chunk_.type == Type::float32 ? bytes_of<float>(all) : bytes_of<std::uint8_t>(all);
     packed_ = version;
     return chunk_;
@@ -54,33 +55,49 @@ const Chunk& SharedSource::chunk(std::uint64_t version) {
 Rows::Rows(std::shared_ptr<SharedSource> source, std::uint64_t every)
     : source_(std::move(source)),
       every_(every),
-      columns_(1 + std::size_t{source_->source().rows} * source_->source().columns * (every > 1 ? 2 : 1)),
+      columns_(head() +
+               std::size_t{source_->source().rows} * source_->source().columns * (every > 1 ? 3 : 1)),
       max_rows_(std::max<std::size_t>(64, max_kept / (columns_ * sizeof(double)))) {}
 
 std::span<const double> Rows::from(std::uint64_t row) const {
     return std::span(numbers_).subspan(static_cast<std::size_t>(row - begin_) * columns_);
 }
 
-void Rows::clear() { begin_ = end(), joined_ = 0, numbers_.clear(); }
+void Rows::clear() { begin_ = end(), cycles_ = 0, numbers_.clear(); }
+
+// Rows begin at the same cycles in all streams, also in those that began later.
+bool Rows::begins_at(std::uint64_t cycle) const {
+    return cycle % every_ == 0 || (cycle < every_ && std::has_single_bit(cycle));
+}
 
 void Rows::after_cycle(std::uint64_t cycle, std::uint64_t version) {
-    // Rows begin at multiples of `every`, so that streams that began at different times have the same cycles.
-    if (joined_ == 0 && cycle % every_ != 0) return;
+    if (cycles_ == 0 && !begins_at(cycle)) return;
     const auto now = source_->numbers(version);
-    if (every_ == 1) return push(cycle, now);
-    if (joined_ == 0) {
-        first_ = cycle;
-        pairs_.resize(2 * now.size());
-        for (std::size_t i = 0; i < now.size(); ++i) pairs_[2 * i] = pairs_[2 * i + 1] = now[i];
+    if (every_ == 1) {
+        push(cycle);
+        numbers_.insert(numbers_.end(), now.begin(), now.end());
+        return;
+    }
+    if (cycles_++ == 0) {
+        first_ = cycle, joined_.clear();
+        for (const double v : now) joined_.push_back({v, v, v, false});
     } else {
         for (std::size_t i = 0; i < now.size(); ++i) {
-            pairs_[2 * i] = std::min(pairs_[2 * i], now[i]);
-            pairs_[2 * i + 1] = std::max(pairs_[2 * i + 1], now[i]);
+            Joined& j = joined_[i];
+            if (now[i] < j.low) j.low = now[i], j.falls = true;
+            if (now[i] > j.high) j.high = now[i], j.falls = false;
+            j.sum += now[i];
         }
     }
-    if (++joined_ < every_) return;
-    joined_ = 0;
-    push(first_, pairs_);
+    if (!begins_at(cycle + 1)) return;
+    push(first_);
+    const auto cycles = static_cast<double>(cycles_);
+    numbers_.push_back(cycles);
+    for (const Joined& j : joined_) {
+        const auto [first, second] = j.falls ? std::pair(j.high, j.low) : std::pair(j.low, j.high);
+        numbers_.insert(numbers_.end(), {first, second, j.sum / cycles});
+    }
+    cycles_ = 0;
 }
 
 void Rows::drop_before(std::uint64_t row) {
@@ -89,10 +106,9 @@ void Rows::drop_before(std::uint64_t row) {
     begin_ = row;
 }
 
-void Rows::push(std::uint64_t cycle, std::span<const double> numbers) {
+void Rows::push(std::uint64_t cycle) {
     if (end() - begin_ >= max_rows_) drop_before(begin_ + max_rows_ / 2);
     numbers_.push_back(static_cast<double>(cycle));
-    numbers_.insert(numbers_.end(), numbers.begin(), numbers.end());
 }
 
 Stream::Stream(std::string text, std::shared_ptr<SharedSource> source, std::shared_ptr<Rows> rows,
@@ -115,8 +131,8 @@ const Chunk& Stream::take(std::uint64_t version) {
     chunk_.columns = static_cast<std::uint32_t>(rows_->columns());
     chunk_.rows = static_cast<std::uint32_t>(numbers.size() / rows_->columns());
     chunk_.gap = first > next_;
-    chunk_.pairs = every_ > 1;
-    set_range(chunk_, numbers, rows_->columns());
+    chunk_.joined = every_ > 1;
+    set_range(chunk_, numbers, rows_->columns(), rows_->head());
     chunk_.bytes = bytes_of<double>(numbers);
     next_ = rows_->end();
     // A page that watches alone needs none of them again; of several, each fetches at its own time.

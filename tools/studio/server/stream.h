@@ -19,8 +19,8 @@ namespace forage::studio {
 struct Chunk {
     std::uint32_t rows = 0, columns = 0;
     Type type = Type::float32;
-    bool gap = false;    ///< whether rows before the first one were dropped
-    bool pairs = false;  ///< whether rows hold the smallest and largest number of several cycles
+    bool gap = false;     ///< whether rows before the first one were dropped
+    bool joined = false;  ///< whether rows are of several cycles
     float lowest = 0, highest = 0;
     std::string bytes;
 };
@@ -46,8 +46,9 @@ class SharedSource {
 };
 
 /// The newest rows of a source, which all its streams with the same decimation share: one row for each cycle,
-/// or for `every` of them with the smallest and largest numbers in between. Rows are counted from 0; the
-/// oldest are dropped when there are too many.
+/// or for `every` of them, and in the beginning for no more than there were before. Such a row has how many
+/// cycles it joins, and of each number the smallest and the largest, in the order in which they came, and the
+/// mean. Rows are counted from 0; the oldest are dropped when there are too many.
 class Rows {
   public:
     Rows(std::shared_ptr<SharedSource> source, std::uint64_t every);
@@ -55,8 +56,9 @@ class Rows {
         return source_.get() == &source && every_ == every;
     }
 
-    /// The numbers of a row: the first cycle, and one number or two for each cell.
+    /// The numbers of a row, and how many of them come before those of the cells.
     std::size_t columns() const { return columns_; }
+    std::size_t head() const { return every_ > 1 ? 2 : 1; }
     std::uint64_t begin() const { return begin_; }
     std::uint64_t end() const { return begin_ + numbers_.size() / columns_; }
     /// The rows from number `row` on, which is in [begin(), end()].
@@ -69,13 +71,20 @@ class Rows {
     void clear();
 
   private:
-    void push(std::uint64_t cycle, std::span<const double> numbers);
+    struct Joined {
+        double low, high, sum;
+        bool falls;  ///< whether the largest came first
+    };
+    bool begins_at(std::uint64_t cycle) const;
+    /// Begins a row, which the numbers follow.
+    void push(std::uint64_t cycle);
 
     std::shared_ptr<SharedSource> source_;
     std::uint64_t every_, begin_ = 0;
-    std::uint64_t first_ = 0, joined_ = 0;  ///< of the row that grows
+    std::uint64_t first_ = 0, cycles_ = 0;  ///< of the row that grows
+    std::vector<Joined> joined_;            ///< of that row
     std::size_t columns_, max_rows_;
-    std::vector<double> pairs_, numbers_;
+    std::vector<double> numbers_;
 };
 
 /// A source with a delivery, for one page. A stream of every cycle gets the rows since the last time.

@@ -12,6 +12,9 @@ export function cyclesPerRow(seconds: number, secondsPerCycle: number, pixels: n
 export class Trace {
   private x: number[] = [];
   private y: number[] = [];
+  /** What each point stands for: the mean of its row, and how many cycles. */
+  private mean: number[] = [];
+  private cycles: number[] = [];
   private epoch = -1;
 
   get length(): number {
@@ -19,43 +22,59 @@ export class Trace {
   }
 
   /**
-   * Adds rows of a block: the cycle, then a number per cell, of which the mean is shown. A row of `every` cycles has the lowest and the
-   * highest number per cell: both become points, half a row apart.
+   * Adds rows of a block: the cycle, then a number per cell, of which the mean is shown. A row of several cycles becomes two points, half a
+   * row apart.
    */
-  add(block: Block, epoch: number, secondsPerCycle: number, every = 1): void {
+  add(block: Block, epoch: number, secondsPerCycle: number): void {
     if (block.rows === 0) return;
     if (epoch !== this.epoch) {
       // The run was restarted or went back: later rows replace those from here on.
       const first = block.values[0]! * secondsPerCycle;
       const keep = this.x.findIndex((t) => t >= first);
-      if (this.epoch !== -1 && keep !== -1) this.x.length = this.y.length = keep;
+      if (this.epoch !== -1 && keep !== -1) this.drop(keep);
       this.epoch = epoch;
     }
-    if (block.gap && this.x.length > 0) {
-      this.x.push(block.values[0]! * secondsPerCycle);
-      this.y.push(NaN);
-    }
-    const step = block.minMax ? 2 : 1;
-    const cells = (block.columns - 1) / step;
-    for (let r = 0; r < block.rows; r++)
-      for (let k = 0; k < step; k++) {
-        const at = r * block.columns;
-        const x = (block.values[at]! + (k * every) / 2) * secondsPerCycle;
-        if (x < this.x[this.x.length - 1]!) continue; // a stream of other rows has shown this already
+    if (block.gap && this.x.length > 0) this.push(block.values[0]! * secondsPerCycle, NaN);
+    const [head, step, points] = block.joined ? [2, 3, 2] : [1, 1, 1];
+    for (let at = 0; at < block.rows * block.columns; at += block.columns) {
+      const each = (k: number) => {
         let sum = 0;
-        for (let c = 1 + k; c < block.columns; c += step) sum += block.values[at + c]!;
-        this.x.push(x);
-        this.y.push(cells > 0 ? sum / cells : NaN);
+        for (let c = head + k; c < block.columns; c += step) sum += block.values[at + c]!;
+        return block.columns > head ? (sum * step) / (block.columns - head) : NaN;
+      };
+      const part = (block.joined ? block.values[at + 1]! : 1) / points;
+      for (let k = 0; k < points; k++) {
+        const x = (block.values[at]! + k * part) * secondsPerCycle;
+        if (x >= (this.x[this.x.length - 1] ?? -Infinity)) this.push(x, each(k), each(step - 1), part); // else a stream of other rows has shown this already
       }
-    if (this.x.length > capacity * 1.25) {
-      this.x.splice(0, this.x.length - capacity);
-      this.y.splice(0, this.y.length - capacity);
     }
+    if (this.x.length > capacity * 1.25) this.drop(0, this.x.length - capacity);
+  }
+
+  private push(x: number, y: number, mean = y, cycles = 1): void {
+    this.x.push(x);
+    this.y.push(y);
+    this.mean.push(mean);
+    this.cycles.push(cycles);
+  }
+  private drop(from: number, count = Infinity): void {
+    for (const each of [this.x, this.y, this.mean, this.cycles]) each.splice(from, count);
   }
 
   /** Forgets all: the run begins again. */
   clear(): void {
-    this.x.length = this.y.length = 0;
+    this.drop(0);
+  }
+
+  /** The mean of all cycles from one time to another. */
+  meanOf(from: number, to: number): number {
+    let sum = 0, n = 0;
+    for (let i = this.x.length - 1; i >= 0 && this.x[i]! >= from; i--) {
+      if (this.x[i]! > to || Number.isNaN(this.mean[i])) continue;
+      sum += this.mean[i]! * this.cycles[i]!;
+      n += this.cycles[i]!;
+    }
+    return sum / n;
   }
 
   /** The times within the last `seconds`, or since an earlier moment. */
@@ -94,7 +113,7 @@ export class Traces {
       const trace = this.byKey.get(keys[i]!) ?? new Trace();
       this.byKey.set(keys[i]!, trace);
       return this.subscribe(source, 'append', (block, frame) => {
-        trace.add(block, frame.epoch, secondsPerCycle, every);
+        trace.add(block, frame.epoch, secondsPerCycle);
         changed(block.gap);
       }, every);
     });
@@ -113,5 +132,10 @@ export class Traces {
     if (!longest) return [[]];
     const times = longest.times(seconds, since);
     return [times, ...all.map((t) => (t ? t.at(times) : times.map(() => NaN)))];
+  }
+
+  /** The mean of each trace from one time to another. */
+  means(keys: string[], from: number, to: number): number[] {
+    return keys.map((k) => this.byKey.get(k)?.meanOf(from, to) ?? NaN);
   }
 }

@@ -13,8 +13,8 @@ export interface Block {
   columns: number;
   /** Whether rows were lost before these, because the page was too slow. */
   gap: boolean;
-  /** Whether the rows are pairs of minima and maxima over several cycles. */
-  minMax: boolean;
+  /** Whether the rows are of several cycles: after the first of them is their number, and of each number there are the extremes, in their order, and the mean. */
+  joined: boolean;
   /** The smallest and the largest finite value. */
   low: number;
   high: number;
@@ -62,7 +62,7 @@ export function decodeFrame(buffer: ArrayBuffer): Frame {
       rows,
       columns,
       gap: (flags & 1) !== 0,
-      minMax: (flags & 2) !== 0,
+      joined: (flags & 2) !== 0,
       low: data.getFloat32(at + 16, true),
       high: data.getFloat32(at + 20, true),
       values: new type(buffer, offset, rows * columns),

@@ -42,9 +42,10 @@ export default async function({ start, open, step }) {
   const gain = inspector.locator('input[id^="Bug/Motor."]').first();
   await gain.fill('0');
   await gain.press('Enter');
-  await page.getByRole('button', { name: 'Run', exact: true }).click();
-  await cycle(140);
-  await page.getByRole('button', { name: 'Pause', exact: true }).click();
+  // It pauses where the motor of the run as it was is at work.
+  await page.evaluate(() => window.socket.send(JSON.stringify({ id: 1e9, command: 'run_until', condition: 'cycle >= 160' })));
+  await cycle(160);
+  await page.getByRole('button', { name: 'Run', exact: true }).waitFor();
 
   step('both traces are in the plot, with their values; both robots are in the arena');
   await page.locator('.dv-tab', { hasText: 'over time' }).click();

@@ -31,7 +31,7 @@ describe('heat maps', () => {
 });
 
 describe('Trace', () => {
-  const block = (rows: number[][], gap = false) => ({ stream: 1, rows: rows.length, columns: rows[0]!.length, gap, minMax: false, low: 0, high: 1, values: Float64Array.from(rows.flat()) });
+  const block = (rows: number[][], gap = false) => ({ stream: 1, rows: rows.length, columns: rows[0]!.length, gap, joined: false, low: 0, high: 1, values: Float64Array.from(rows.flat()) });
   it('keeps means over time, and marks a gap', () => {
     const t = new Trace();
     t.add(block([[0, 1, 3], [1, 2, 4]]), 1, 0.1);
@@ -40,12 +40,15 @@ describe('Trace', () => {
     expect(x).toEqual([0, 0.1, 0.9, 0.9]);
     expect(t.at([0, 0.1])).toEqual([2, 3]);
   });
-  it('draws the lowest and the highest of several cycles', () => {
+  it('draws the extremes of several cycles in their order, and knows the mean of every cycle', () => {
     const t = new Trace();
-    t.add({ ...block([[0, 1, 9], [4, 2, 8]]), minMax: true }, 1, 0.1, 4);
-    t.add(block([[6, 5], [8, 7]]), 1, 0.1); // the first is shown already
-    expect(t.times(10)).toEqual([0, 0.2, 0.4, 0.6, 0.6, 0.8].map((v) => expect.closeTo(v)));
-    expect(t.at(t.times(10)).slice(0, 4)).toEqual([1, 9, 2, 8]);
+    t.add({ ...block([[0, 4, 1, 9, 2], [4, 2, 8, 2, 5]]), joined: true }, 1, 0.1);
+    t.add(block([[4, 3], [8, 7]]), 1, 0.1); // the first is shown already
+    expect(t.times(10)).toEqual([0, 0.2, 0.4, 0.5, 0.8].map((v) => expect.closeTo(v)));
+    expect(t.at(t.times(10))).toEqual([1, 9, 8, 2, 7]);
+    expect(t.meanOf(0, 0.6)).toBeCloseTo((4 * 2 + 2 * 5) / 6);
+    expect(t.meanOf(0.4, 1)).toBeCloseTo((2 * 5 + 7) / 3);
+    expect(t.meanOf(2, 3)).toBeNaN();
   });
   it('takes as many cycles for a row as a pixel can show', () => {
     expect(cyclesPerRow(30, 0.04, 400)).toBe(1);

@@ -13,8 +13,8 @@ describe('decodeFrame', () => {
     expect(frame).toMatchObject({ sequence: 7, epoch: 2, cycle: 5_000_000_000, seconds: 1.5 });
     expect(frame.blocks.map((b) => b.stream)).toEqual([3, 4, 5]);
     expect(Array.from(frame.blocks[0]!.values)).toEqual([1, 2, -1, 4]);
-    expect(frame.blocks[0]).toMatchObject({ rows: 2, columns: 2, gap: false, minMax: false, low: -1, high: 4 });
-    expect(frame.blocks[1]).toMatchObject({ gap: true, minMax: true });
+    expect(frame.blocks[0]).toMatchObject({ rows: 2, columns: 2, gap: false, joined: false, low: -1, high: 4 });
+    expect(frame.blocks[1]).toMatchObject({ gap: true, joined: true });
     expect(Array.from(frame.blocks[2]!.values)).toEqual([0.1, NaN]);
     for (const block of frame.blocks) expect(block.values.buffer).toBe(buffer);
   });

@@ -3,7 +3,7 @@ import { difference, differenceScale } from '../../src/draw/scale';
 import { Moments } from '../../src/panels/moments';
 import type { Block } from '../../src/protocol/frame';
 
-const block = (...rows: number[][]): Block => ({ stream: 1, rows: rows.length, columns: rows[0]?.length ?? 0, gap: false, minMax: false, low: 0, high: 0, values: Float64Array.from(rows.flat()) });
+const block = (...rows: number[][]): Block => ({ stream: 1, rows: rows.length, columns: rows[0]?.length ?? 0, gap: false, joined: false, low: 0, high: 0, values: Float64Array.from(rows.flat()) });
 
 describe('the cells of a group over the last cycles', () => {
   it('have a column per cycle, also where rows were lost', () => {

@@ -7,7 +7,7 @@ const frame = (sequence: number, stream: number, value: number): Frame => ({
   epoch: 1,
   cycle: sequence,
   seconds: 0,
-  blocks: [{ stream, rows: 1, columns: 1, gap: false, minMax: false, low: value, high: value, values: Float32Array.of(value) }],
+  blocks: [{ stream, rows: 1, columns: 1, gap: false, joined: false, low: value, high: value, values: Float32Array.of(value) }],
 });
 
 function server() {

@@ -4,7 +4,7 @@ import { momentOf } from '../../src/panels/moment_keys';
 import { Traces } from '../../src/panels/trace';
 import type { Listener } from '../../src/streams';
 
-const rows = (values: [number, number][], gap = false): Block => ({ stream: 1, rows: values.length, columns: 2, gap, minMax: false, low: 0, high: 1, values: Float64Array.from(values.flat()) });
+const rows = (values: [number, number][], gap = false): Block => ({ stream: 1, rows: values.length, columns: 2, gap, joined: false, low: 0, high: 1, values: Float64Array.from(values.flat()) });
 const frame = { epoch: 1 } as Frame;
 
 describe('traces over time', () => {
