@@ -143,11 +143,10 @@ class Validator {
                 const std::string path = fmt::format("{}/{}", trim(p.name), trim(g.name));
                 const auto [it, fresh] = first.emplace(path, &g);
                 if (!fresh && it->second->id != g.id)
-                    out_.warning(
-                        g.at,
-                        fmt::format("there is already a group '{}', with the id '{}'", path, it->second->id),
-                        fmt::format("rename one of them, or name this one in options as '{}#{}'", path,
-                                    g.id));
+                    out_.warning(g.at, fmt::format("there is already a group '{}'", path),
+                                 fmt::format("rename one of them; until then, this one is called '{0}#{1}', "
+                                             "and the other one '{0}#{2}'",
+                                             path, g.id, it->second->id));
             }
     }
 

@@ -63,13 +63,13 @@ export default async function({ site, folder, context, start, open, faults, step
   await find(page, 'Bug/Light');
   await inView(true);
 
-  step('a group that takes the name of another one says how commands call it; so does the other');
+  step('a group that takes the name of another one says how it is called until then; so does the other');
   await row('contextual.collector').click();
   await heading('Contextual/Collector');
   const called = inspector.getByLabel('Name', { exact: true });
   await called.fill('Distance');
   await called.press('Enter');
-  await inspector.getByText("another group of this process is called so, too; commands call this one 'Contextual/Distance#contextual.collector'").waitFor();
+  await inspector.getByText("rename one of them; until then, this one is called 'Contextual/Distance#contextual.collector'").waitFor();
   await picture(page, 'shared-name');
   await row('contextual.distance').click();
   await inspector.getByText("there is already a group 'Contextual/Distance'").waitFor();
