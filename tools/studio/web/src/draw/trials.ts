@@ -1,13 +1,18 @@
 // What the trials of a run show: where they began, and what was done before them.
-import type { ActionMessage, Trial } from '../protocol/messages';
+import type { ActionMessage, Trial, WorldMessage } from '../protocol/messages';
+import { short } from './scale';
 
+type Starts = WorldMessage['starts'];
+
+/** What a start of the world is called; `i` counts from 0. */
+export const startName = ({ x, y }: Starts[number], i: number): string => `start ${i + 1} (${short(x)}, ${short(y)})`;
 /** A number in steps, without a sign before 0. */
 const inSteps = (v: number, step: number) => Math.round(v / step) * step + 0;
 /** A start pose in words, so coarse that starts that differ by noise fall together. */
 const startText = ([x, y, yaw]: Trial['start']): string => `${inSteps(x, 0.1).toFixed(1)}, ${inSteps(y, 0.1).toFixed(1)} m, ${inSteps((yaw * 180) / Math.PI, 10)}°`;
 
-/** The trials by their start poses, from left to right as the arena shows them; more than `most` different ones are one row. */
-export function byStart(trials: Trial[], most = 12): { start: string; trials: Trial[] }[] {
+/** The trials by their start poses, of which those of the world have names, from left to right as the arena shows them; more than `most` different ones are one row. */
+export function byStart(trials: Trial[], starts: Starts, most = 12): { start: string; trials: Trial[] }[] {
   const rows = new Map<string, Trial[]>();
   for (const t of trials) {
     const start = startText(t.start), row = rows.get(start);
@@ -16,7 +21,8 @@ export function byStart(trials: Trial[], most = 12): { start: string; trials: Tr
   }
   if (rows.size > most) return [{ start: 'all starts', trials }];
   const left = (some: Trial[]) => some[0]!.start[0];
-  return [...rows].map(([start, some]) => ({ start, trials: some })).sort((a, b) => left(a.trials) - left(b.trials));
+  const names = new Map(starts.map((s, i) => [startText([s.x, s.y, s.yaw]), startName(s, i)]));
+  return [...rows].map(([start, some]) => ({ start: names.get(start) ?? start, trials: some })).sort((a, b) => left(a.trials) - left(b.trials));
 }
 
 /** An action, and the course of the run in which it was done. */

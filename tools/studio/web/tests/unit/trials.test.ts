@@ -6,8 +6,9 @@ const trial = (number: number, reached: boolean, start: [number, number, number]
 
 it('trials stand by their starts, and random starts in one row', () => {
   const some = [trial(1, true), trial(2, false, [-1, 0, Math.PI / 2]), trial(3, true, [-0.001, 0, 0.02])];
-  expect(byStart(some).map((r) => [r.start, r.trials.map((t) => t.number)])).toEqual([['-1.0, 0.0 m, 90°', [2]], ['0.0, 0.0 m, 0°', [1, 3]]]);
-  expect(byStart(some, 1)).toHaveLength(1);
+  const starts = [{ x: 0, y: 0, yaw: Math.PI }, { x: 0.01, y: -0.004, yaw: 0 }];
+  expect(byStart(some, starts).map((r) => [r.start, r.trials.map((t) => t.number)])).toEqual([['-1.0, 0.0 m, 90°', [2]], ['start 2 (0.01, -0.004)', [1, 3]]]);
+  expect(byStart(some, [], 1)).toHaveLength(1);
 });
 
 it('what was changed since is named once, without runs and files', () => {
