@@ -202,7 +202,11 @@ export default async function({ folder, start, open, faults, step }) {
 
   step('time: in a narrow column the bar leaves room for the plot; what is rarely chosen opens below it');
   for (const choice of ['Seconds shown', 'Vertical scale', 'Save']) await time.getByLabel(choice, { exact: true }).waitFor();
+  await time.getByLabel('Seconds shown').selectOption('600');
+  await time.getByText(/ min\/max of \d+ cycles$/).waitFor();
   await picture(page, 'time-choices');
+  assert.ok(await time.locator('.reading').evaluate((bar) => bar.scrollWidth <= bar.clientWidth), 'the words below the plot are whole');
+  await time.getByLabel('Seconds shown').selectOption('30');
   await more.click();
   await time.getByLabel('Seconds shown').waitFor({ state: 'detached' });
   await picture(page, 'time-folded');
