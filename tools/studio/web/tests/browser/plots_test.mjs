@@ -205,7 +205,9 @@ export default async function({ folder, start, open, faults, step }) {
   await time.getByLabel('Seconds shown').selectOption('600');
   await time.getByText(/ min\/max of \d+ cycles$/).waitFor();
   await picture(page, 'time-choices');
+  await page.setViewportSize({ width: 1150, height: 900 });
   assert.ok(await time.locator('.reading').evaluate((bar) => bar.scrollWidth <= bar.clientWidth), 'the words below the plot are whole');
+  await page.setViewportSize({ width: 1400, height: 900 });
   await time.getByLabel('Seconds shown').selectOption('30');
   await more.click();
   await time.getByLabel('Seconds shown').waitFor({ state: 'detached' });
