@@ -368,21 +368,23 @@ class Watching(unittest.TestCase):
 
     def test_every_cycle_is_appended(self):
         stream = self.page.do('subscribe', source='mean(Bug/Light)', delivery='append')['stream']
-        pairs = self.page.do('subscribe', source='Bug/Light', every=10, delivery='append')['stream']
-        self.wait(lambda: self.page.frames and {stream, pairs} <= set(self.page.frames[-1].streams))
+        tenth = self.page.do('subscribe', source='Bug/Light', every=10, delivery='append')['stream']
+        self.wait(lambda: self.page.frames and {stream, tenth} <= set(self.page.frames[-1].streams))
         self.page.acknowledge(self.frames(1)[-1].seq)
         self.page.do('step', cycles=95)
         rows = []
-        joined = []
+        begins, kinds = [], set()
         while len(rows) < 95:
             (frame,) = self.frames(1)
             count, columns, flags, _, _, numbers = frame.streams[stream]
             self.assertEqual((columns, flags), (2, 0))
             rows += numbers[::2]
-            joined.append(frame.streams[pairs])
+            count, columns, flags, _, _, numbers = frame.streams[tenth]
+            begins += numbers[::columns]
+            kinds.add(flags)
         self.assertEqual(rows, list(range(95)))
-        self.assertEqual(sum(j[0] for j in joined), 9)
-        self.assertEqual({j[2] for j in joined}, {2})
+        self.assertEqual(begins, [0, 1, 2, 4, 8, *range(10, 90, 10)])
+        self.assertEqual(kinds, {2})
 
     def test_a_gap_is_said(self):
         stream = self.page.do('subscribe', source='Bug/Light', delivery='append')['stream']
