@@ -145,7 +145,7 @@ class Validator {
                 if (!fresh && it->second->id != g.id)
                     out_.warning(g.at, fmt::format("there is already a group '{}'", path),
                                  fmt::format("rename one of them; until then, this one is called '{0}#{1}', "
-                                             "and the other one '{0}#{2}'",
+                                             "and the first one '{0}#{2}'",
                                              path, g.id, it->second->id));
             }
     }

@@ -140,7 +140,7 @@ class Robot(unittest.TestCase):
     def test_two_groups_of_one_name_are_a_warning(self):
         err = self.check(('id="bug.place_cells" name="Place Cells"', 'id="bug.place_cells" name="GPS"'), status=0)
         self.assertRegex(err, r"a.iqr:\d+:\d+: warning: there is already a group 'Bug/GPS'\n")
-        self.assertIn("this one is called 'Bug/GPS#bug.place_cells', and the other one 'Bug/GPS#bug.gps'", err)
+        self.assertIn("this one is called 'Bug/GPS#bug.place_cells', and the first one 'Bug/GPS#bug.gps'", err)
 
     def test_one_system_drives_two_robots(self):
         command = re.search(r"build/release/bin/forage run .*--robot.*", PAGE)[0]
