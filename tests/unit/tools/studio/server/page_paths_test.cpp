@@ -170,7 +170,8 @@ TEST_CASE("modules of an edited system read and write tables and weights only") 
 }
 
 TEST_CASE("modules of an edited system open cameras and gamepads only") {
-    for (const auto& [type, kind] : {std::pair{"moduleVideo", "camera"}, {"moduleJoystick", "gamepad"}}) {
+    for (const std::string type : {"moduleVideo", "moduleJoystick"}) {
+        const std::string kind = type == "moduleVideo" ? "camera" : "gamepad";
         OwnFolder f;
         const auto process = f.session->edited.document->system().processes.front().id;
         const auto pipe = f.path("pipe");
