@@ -91,9 +91,12 @@ std::vector<DrawnSolid> drawing_of(const WorldDescription& world) {
                     if (v.shape.kind != ShapeKind::plane)
                         out.push_back({{v.shape.kind, pose * v.pose, v.shape.size}, v.material.diffuse});
                 if (!link.visuals.empty()) return;
-                for (const Collision& c : link.collisions)  // so that no wall is invisible
-                    if (c.shape.kind != ShapeKind::plane)
-                        out.push_back({{c.shape.kind, pose * c.pose, c.shape.size}, Material{}.diffuse});
+                for (const Collision& c : link.collisions) {  // so that no wall is invisible
+                    const Pose at = pose * c.pose;
+                    const bool below = at.translation().z() + c.shape.size.z() / 2 <= 0;  // the floor: bounds
+                    if (c.shape.kind != ShapeKind::plane && !below)
+                        out.push_back({{c.shape.kind, at, c.shape.size}, Material{}.diffuse});
+                }
             });
     return out;
 }
