@@ -6,6 +6,7 @@
 #include <set>
 #include <stdexcept>
 
+#include <Eigen/Geometry>
 #include <fmt/format.h>
 
 #include "bug_interface/world/sdf_format.h"
@@ -76,18 +77,24 @@ std::string free_name(const Opened& here, const std::string& kind) {
 /// The floor whose bounds hold all items, with room for a robot around them.
 NewItem ground_around(const std::vector<WorldItem>& items) {
     constexpr double room = 0.5, step = 0.1, usual = 2.5;
-    double x = usual, y = usual;
+    Eigen::Vector2d reach(usual, usual);
     for (const auto& i : items) {
         if (!i.placed || i.kind == "floor") continue;
-        double reach = 0;
-        for (const auto& p : i.parts)
-            reach =
-                std::max(reach, std::hypot(p.x, p.y) +
-                                    (p.size.size() == 1 ? p.size[0] : std::hypot(p.size[0], p.size[1]) / 2));
-        x = std::max(x, std::abs(i.x) + reach + room), y = std::max(y, std::abs(i.y) + reach + room);
+        const auto hold = [&](const Eigen::Vector2d& at, const Eigen::Vector2d& half) {
+            reach = reach.cwiseMax(at.cwiseAbs() + half + Eigen::Vector2d(room, room));
+        };
+        const Eigen::Vector2d middle(i.x, i.y);
+        hold(middle, {0, 0});
+        for (const auto& p : i.parts) {
+            const Eigen::Matrix2d turn = Eigen::Rotation2Dd(i.yaw + p.yaw).toRotationMatrix().cwiseAbs();
+            const Eigen::Vector2d half = p.size.size() == 1
+                                             ? Eigen::Vector2d(p.size[0], p.size[0])
+                                             : turn * Eigen::Vector2d(p.size[0], p.size[1]) / 2;
+            hold(middle + Eigen::Rotation2Dd(i.yaw) * Eigen::Vector2d(p.x, p.y), half);
+        }
     }
     const auto whole = [&](double half) { return 2 * step * std::ceil(half / step); };
-    return {.kind = "floor", .name = ground, .width = whole(x), .depth = whole(y)};
+    return {.kind = "floor", .name = ground, .width = whole(reach.x()), .depth = whole(reach.y())};
 }
 
 /// Reports a start pose that is not inside the bounds of trials, with which the world could not run.

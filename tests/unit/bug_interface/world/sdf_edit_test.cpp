@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "bug_interface/motion/reset.h"
+#include "bug_interface/simulation/world_queries.h"
 #include "bug_interface/world/sdf_reader.h"
 #include "core/base/output_files.h"
 #include "core/base/text_file.h"
@@ -335,6 +336,8 @@ TEST_CASE("a start pose brings the bounds that end trials, once, and leaves the 
     CHECK(plan->starts.size() == 2);
     CHECK(plan->bounds.contains(Eigen::Vector2d(4.5, -6.5)));
     CHECK(plan->bounds.contains(Eigen::Vector2d(-10, 0)));
+    CHECK(plan->bounds.sizes().y() < 14);
+    for (const auto& d : drawing_of(world)) CHECK(d.solid.pose.translation().z() > -0.5);  // no bounds
 }
 
 TEST_CASE("what cannot be done to a world is said") {
