@@ -35,6 +35,8 @@ interface Pane {
 export class PaneEdits {
   /** When a tool was used last: the second click of a double click does nothing more. */
   private used = 0;
+  /** Where the mouse was pressed. */
+  private pressed: Point | null = null;
 
   constructor(private readonly pane: () => Pane) {}
 
@@ -115,9 +117,24 @@ export class PaneEdits {
         }
   }
 
+  private boxAt(p: Point): PageBox | undefined {
+    return [...this.pane().boxes.values()].reverse().find((b) => !b.comment && inside(b.box, p, 6));
+  }
+
+  press(e: PointerEvent): void {
+    this.pressed = this.pane().stage?.toPage(e) ?? null;
+  }
+  /** With a tool for connections, what is dragged from a box is a line that begins there; the click at its end connects it. */
+  drag(e: PointerEvent): void {
+    const { stage } = this.pane();
+    if (!stage || !this.pressed || !tools.connecting || tools.pending || e.buttons !== 1) return;
+    const box = this.boxAt(this.pressed), group = box && groupAt(box, this.pressed);
+    if (group && this.boxAt(stage.toPage(e)) !== box) this.begin(box, group, this.pressed);
+  }
+
   /** A click with the tool that is in hand. */
   click(e: MouseEvent): void {
-    const { stage, process, boxes } = this.pane(), target = e.target as Element;
+    const { stage, process } = this.pane(), target = e.target as Element;
     if (tools.current === 'select' || !stage || !target.closest('.svelte-flow') || target.closest('.svelte-flow__panel, .vertex')) return;
     e.stopPropagation();
     e.preventDefault();
@@ -125,18 +142,22 @@ export class PaneEdits {
     const p = stage.toPage(e);
     if (tools.current === 'add') return void this.add(p);
     if (tools.current === 'comment') return this.comment(p);
-    const box = [...boxes.values()].reverse().find((b) => !b.comment && inside(b.box, p, 6));
+    const box = this.boxAt(p);
     const here = process?.id ?? null;
     if (!box) {
       if (tools.pending && tools.pending.page === here) tools.pending = { ...tools.pending, vertices: [...tools.pending.vertices, p] };
     } else {
       const group = groupAt(box, p);
       if (!group) actions.notify('info', 'Connections lead from group to group: open the page of the process.');
-      else if (!tools.pending) tools.pending = { source: group, box: box.id, anchor: group !== box.id || box.phantom ? null : clickedAnchor(box.box, p), page: here, vertices: [] };
+      else if (!tools.pending) this.begin(box, group, p);
       else this.connect(box, group, p);
     }
   }
 
+  /** Begins a line at a box, which is that of a group or of a process with it behind a port. */
+  private begin(box: PageBox, source: string, p: Point): void {
+    tools.pending = { source, box: box.id, anchor: source !== box.id || box.phantom ? null : clickedAnchor(box.box, p), page: this.pane().process?.id ?? null, vertices: [] };
+  }
   /** Ends the pending line at a box, which is that of a group or of a process with it behind a port. */
   private connect(box: PageBox, target: string, p: Point): void {
     const { source, box: begin, page, anchor, vertices } = tools.pending!, kind = tools.current as 'excitatory' | 'inhibitory' | 'modulatory';
