@@ -6,23 +6,32 @@ type Starts = WorldMessage['starts'];
 
 /** What a start of the world is called; `i` counts from 0. */
 export const startName = ({ x, y }: Starts[number], i: number): string => `start ${i + 1} (${short(x)}, ${short(y)})`;
+/** The start of the world that a trial began at, as a number from 0: the nearest one; undefined when none is so near as noise puts it. */
+function startOf([x, y, yaw]: Trial['start'], starts: Starts): number | undefined {
+  let found: number | undefined, least = 0.03; // m
+  starts.forEach((s, i) => {
+    // A world may draw the heading, so it only decides between starts at one place.
+    const away = Math.hypot(x - s.x, y - s.y) + 0.001 * (1 - Math.cos(yaw - s.yaw));
+    if (away < least) [found, least] = [i, away];
+  });
+  return found;
+}
 /** A number in steps, without a sign before 0. */
 const inSteps = (v: number, step: number) => Math.round(v / step) * step + 0;
-/** A start pose in words, so coarse that starts that differ by noise fall together. */
+/** A start pose in words, so coarse that starts that differ by noise mostly fall together. */
 const startText = ([x, y, yaw]: Trial['start']): string => `${inSteps(x, 0.1).toFixed(1)}, ${inSteps(y, 0.1).toFixed(1)} m, ${inSteps((yaw * 180) / Math.PI, 10)}°`;
 
-/** The trials by their start poses, of which those of the world have names, from left to right as the arena shows them; more than `most` different ones are one row. */
+/** The trials by the starts of the world, or else by their start poses, from left to right as the arena shows them; more than `most` different ones are one row. */
 export function byStart(trials: Trial[], starts: Starts, most = 12): { start: string; trials: Trial[] }[] {
   const rows = new Map<string, Trial[]>();
   for (const t of trials) {
-    const start = startText(t.start), row = rows.get(start);
+    const i = startOf(t.start, starts), start = i === undefined ? startText(t.start) : startName(starts[i]!, i), row = rows.get(start);
     if (row) row.push(t);
     else rows.set(start, [t]);
   }
   if (rows.size > most) return [{ start: 'all starts', trials }];
   const left = (some: Trial[]) => some[0]!.start[0];
-  const names = new Map(starts.map((s, i) => [startText([s.x, s.y, s.yaw]), startName(s, i)]));
-  return [...rows].map(([start, some]) => ({ start: names.get(start) ?? start, trials: some })).sort((a, b) => left(a.trials) - left(b.trials));
+  return [...rows].map(([start, some]) => ({ start, trials: some })).sort((a, b) => left(a.trials) - left(b.trials));
 }
 
 /** An action, and the course of the run in which it was done. */
