@@ -35,18 +35,21 @@ export class Trace {
       this.epoch = epoch;
     }
     if (block.gap && this.x.length > 0) this.push(block.values[0]! * secondsPerCycle, NaN);
-    const [head, step, points] = block.joined ? [2, 3, 2] : [1, 1, 1];
+    const v = block.values, [head, step] = block.joined ? [2, 3] : [1, 1];
     for (let at = 0; at < block.rows * block.columns; at += block.columns) {
-      const each = (k: number) => {
+      /** The mean of a number of each cell. */
+      const mean = (of: (c: number) => number) => {
         let sum = 0;
-        for (let c = head + k; c < block.columns; c += step) sum += block.values[at + c]!;
+        for (let c = at + head; c < at + block.columns; c += step) sum += of(c);
         return block.columns > head ? (sum * step) / (block.columns - head) : NaN;
       };
-      const part = (block.joined ? block.values[at + 1]! : 1) / points;
-      for (let k = 0; k < points; k++) {
-        const x = (block.values[at]! + k * part) * secondsPerCycle;
-        if (x >= (this.x[this.x.length - 1] ?? -Infinity)) this.push(x, each(k), each(step - 1), part); // else a stream of other rows has shown this already
-      }
+      const extremes = block.joined ? [mean((c) => Math.min(v[c]!, v[c + 1]!)), mean((c) => Math.max(v[c]!, v[c + 1]!))] : [mean((c) => v[c]!)];
+      if (block.joined && v[at + head]! > v[at + head + 1]!) extremes.reverse(); // the order of the first cell
+      const all = mean((c) => v[c + step - 1]!), part = (block.joined ? v[at + 1]! : 1) / extremes.length;
+      extremes.forEach((y, k) => {
+        const x = (v[at]! + k * part) * secondsPerCycle;
+        if (x >= (this.x[this.x.length - 1] ?? -Infinity)) this.push(x, y, all, part); // else a stream of other rows has shown this already
+      });
     }
     if (this.x.length > capacity * 1.25) this.drop(0, this.x.length - capacity);
   }
