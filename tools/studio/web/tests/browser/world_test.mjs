@@ -29,7 +29,12 @@ export default async function({ forage, site, folder, start, open, onDisk, fault
   await world.getByText('What is painted on GroundPlane is part of its picture').waitFor();
   assert.equal(await field('Name').inputValue(), 'GroundPlane');
 
-  step('a wall is added by a click, dragged, and given numbers');
+  step('a wall is added by a click, dragged, and given numbers; Escape puts away what is to be placed');
+  const pillar = world.getByRole('button', { name: 'pillar', exact: true });
+  await pillar.click();
+  await pillar.and(page.locator('[aria-pressed=true]')).waitFor();
+  await page.keyboard.press('Escape');
+  await pillar.and(page.locator('[aria-pressed=false]')).waitFor();
   const items = await map.getByRole('button').count();
   await world.getByRole('button', { name: 'wall', exact: true }).click();
   await page.mouse.click(...(await at(0.4, 0.42)));
