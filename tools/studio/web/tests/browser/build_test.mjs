@@ -315,6 +315,11 @@ export default async function({ forage, folder, start, open, onDisk, faults, ste
   await field('Cells').waitFor(); // its form is opened again, as cells are to be chosen
   await inspector.getByText(/^Read by Gazebo Bug as Motor\. The most active cell/).waitFor();
   await page.keyboard.press('Control+z');
+  // A drag from box to box connects them, too.
+  await page.getByRole('button', { name: 'Connect excitatory' }).first().click();
+  await diagram.locator('.svelte-flow__node[aria-label="Target sensor"]').first().dragTo(diagram.locator('.svelte-flow__node[aria-label="Motor"]').first());
+  await inspector.getByRole('heading', { name: 'Target sensor to Motor' }).waitFor();
+  await page.keyboard.press('Control+z');
   await connect('Target sensor');
   await inspector.getByText("leads to 'Bug/Target sensor', to which the module of process 'Bug' writes: its cells get the sum of both").waitFor();
   await page.keyboard.press('Control+z');
