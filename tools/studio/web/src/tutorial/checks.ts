@@ -129,7 +129,7 @@ export function findHits(check: Check, reached: boolean[], learned = false): Fin
 }
 
 /** Whether the condition of a check holds now. */
-export const findSeen = (check: Check, holds: boolean): Finding => ({ ...toDo(check), right: holds || null });
+export const findSeen = (check: Check, holds: boolean): Finding => (holds ? { ...toDo(check), right: true } : { right: null, text: said(check, `${check.seen!.task}: this has not been so yet.`) });
 
 /** Whether the run has lasted, since the last change. */
 export const findLasting = (check: Check, seconds: number): Finding =>

@@ -42,7 +42,7 @@ describe('a check', () => {
   it('ticks a task whose condition holds', () => {
     const check = readCheck('find a region when max(A/B) > 0.1');
     expect(findSeen(check, true)).toEqual({ right: true, text: 'Find a region.' });
-    expect(findSeen(check, false)).toEqual({ right: null, text: 'Find a region.' });
+    expect(findSeen(check, false)).toEqual({ right: null, text: 'Find a region: this has not been so yet.' });
   });
   it('says whether the run has lasted since the last change', () => {
     const check = readCheck('600 s');
