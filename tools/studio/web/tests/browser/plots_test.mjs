@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { readFileSync, writeFileSync } from 'node:fs';
 import { join } from 'node:path';
-import { find, picture, sent, until } from './support.mjs';
+import { eventually, find, picture, sent, until } from './support.mjs';
 
 export default async function({ folder, start, open, faults, step }) {
   const page = await open(await start().address);
@@ -205,7 +205,9 @@ export default async function({ folder, start, open, faults, step }) {
   await time.getByLabel('Seconds shown').selectOption('600');
   await time.getByText(/ min\/max of \d+ cycles$/).waitFor();
   await picture(page, 'time-choices');
+  const wide = await time.locator('.reading').evaluate((bar) => bar.clientWidth);
   await page.setViewportSize({ width: 1150, height: 900 });
+  await eventually('a narrower plot', () => time.locator('.reading').evaluate((bar, before) => bar.clientWidth < before, wide));
   assert.ok(await time.locator('.reading').evaluate((bar) => bar.scrollWidth <= bar.clientWidth), 'the words below the plot are whole');
   await page.setViewportSize({ width: 1400, height: 900 });
   await time.getByLabel('Seconds shown').selectOption('30');
