@@ -65,7 +65,8 @@ constexpr CodeForm code_forms[] = {
     {Op::floor, "std::floor({})"},
     {Op::round, "std::round({})"},
 };
-static_assert(std::size(code_forms) + 2 == Formula::ops, "each has a form, but for numbers and names");
+static_assert(std::size(code_forms) + 2 == Formula::op_count,
+              "each operator and function has a form; numbers and names are written by translated()");
 
 /// A formula in C++; `name_of` says what its names are there.
 template <class NameOf>

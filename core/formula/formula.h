@@ -60,7 +60,8 @@ class Formula {
         round,
         choice,
     };
-    static constexpr std::size_t ops = static_cast<std::size_t>(Op::choice) + 1;
+    /// The number of kinds of nodes.
+    static constexpr std::size_t op_count = static_cast<std::size_t>(Op::choice) + 1;
     struct Node {
         Op op;
         std::uint32_t at;  ///< its first byte in the text

@@ -74,7 +74,8 @@ constexpr TermForm term_forms[] = {
     {Op::round, "\\operatorname{{round}}({})"},
     {Op::choice, "\\begin{{cases}}{1} & \\text{{if }}{0}\\\\ {2} & \\text{{otherwise}}\\end{{cases}}"},
 };
-static_assert(std::size(term_forms) + 6 == Formula::ops, "each has a form, or is asked for in term()");
+static_assert(std::size(term_forms) + 6 == Formula::op_count,
+              "each operator and function has a form, but for the six kinds of nodes that term() asks for");
 
 /// A formula with this many characters is written without tall fractions and parentheses, so that TeX can
 /// divide it between its terms.
