@@ -20,7 +20,8 @@ json carry_out_in_world(const json& operation, std::string& text, bug::ModelText
 /// Throws InputError when a text of the file `path` is not one of a world.
 void check_world(const std::string& path, const std::string& text);
 
-/// What is wrong with a world of this text, which would be the file `path`, as `forage world` says it.
+/// What is wrong with a world of this text, which would be the file `path`, as `forage world` says it;
+/// pictures of its floors are not read.
 Diagnostics problems_of_world(const std::string& path, const std::string& text);
 
 }  // namespace forage::editing

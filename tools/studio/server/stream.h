@@ -46,9 +46,10 @@ class SharedSource {
 };
 
 /// The newest rows of a source, which all its streams with the same decimation share: one row for each cycle,
-/// or for `every` of them, and in the beginning for no more than there were before. Such a row has how many
-/// cycles it joins, and of each number the smallest and the largest, in the order in which they came, and the
-/// mean. Rows are counted from 0; the oldest are dropped when there are too many.
+/// or for `every` of them. The first rows of a run begin at the cycles 0, 1, 2, 4 and so on, so that a short
+/// run has rows. A row of several cycles has how many it joins, and of each number the smallest and the
+/// largest, in the order in which they came, and the mean. Rows are counted from 0; the oldest are dropped
+/// when there are too many.
 class Rows {
   public:
     Rows(std::shared_ptr<SharedSource> source, std::uint64_t every);

@@ -8,7 +8,7 @@ interface Opening {
 /** What the page asks of the worker, beside messages for the session. */
 export type Wish =
   | Opening
-  | { hidden: boolean } // what has changed is kept then
+  | { hidden: boolean } // also when it is left; what has changed is kept at each
   | { read: string }
   | { write: string; bytes: ArrayBuffer };
 /** What the worker answers, beside messages of the session. */
