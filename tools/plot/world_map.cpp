@@ -100,10 +100,10 @@ WorldMap::WorldMap(const bug::World& world, const Box& extra, double pixels, dou
 }
 
 WorldMap WorldMap::with_floors(const bug::World& world, double pixels) {
-    constexpr double near = 1.5;  // m
+    constexpr double max_distance = 1.5;  // m
     WorldMap map(world, {}, pixels, 0, 0);
     if (!world.reset_plan()) return map;  // what lies outside of its walls is not reached
-    const Box around(map.view_.min().array() - near, map.view_.max().array() + near);
+    const Box around(map.view_.min().array() - max_distance, map.view_.max().array() + max_distance);
     for (const auto* floor : floors_of(world)) {
         const Eigen::Vector2d at(floor->pose.x, floor->pose.y);
         const Eigen::Matrix2d turn = Eigen::Rotation2Dd(floor->pose.yaw).toRotationMatrix().cwiseAbs();

@@ -23,7 +23,8 @@ class WorldMap {
     /// The map contains the bounds, walls, targets, robots and `extra` (m), with a margin. Its longer side
     /// has `pixels` pixels; its upper left corner is at (left, top).
     WorldMap(const bug::World& world, const Box& extra, double pixels, double left, double top);
-    /// The map of an arena: also contains the whole of each floor that ends near the bounds of trials.
+    /// The map of an arena: in a world with start poses, it also contains the whole of each floor with a
+    /// picture that ends at most 1.5 m from what is on the map.
     static WorldMap with_floors(const bug::World& world, double pixels);
 
     double width() const { return view_.sizes().x() * scale_; }   ///< pixels

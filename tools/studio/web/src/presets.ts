@@ -82,7 +82,7 @@ function build(beside: boolean): void {
   if (model.world) dock.open({ kind: 'arena' }, { beside: main, inactive: true, ...(beside ? { direction: 'right', width: Math.round(0.4 * width) } : {}) });
 }
 
-/** The panel in question in the largest place, plots at its right, and the arena below it or below them, with the diagram behind it. */
+/** The panel in question in the largest place, plots at its right, of which those without room are tabs, and the arena below it or below them, with the diagram behind it. */
 function around(large: PanelState, plots: PanelState[]): void {
   const api = dock.api!, { main, width: all } = begin(large);
   // From *Trials* the exercise is run: it is in sight also where some plots are behind others.

@@ -105,7 +105,7 @@ class Dock {
     return this.api?.groups.find((g) => g.panels.length && g.panels.every((p) => kindOf(p) !== 'tutorial'))?.activePanel;
   }
 
-  /** Arranges all panels for a window without room for columns: the main one, with what was behind it in columns, above the tabs of all others; or tabs of one stack. The tutorial stays beside them, or below. */
+  /** Arranges all panels for a window without room for columns: the main one, with what was behind it in columns, above the tabs of all others, of which the arena and the diagram have a stack of their own beside the tutorial; or tabs of one stack. The tutorial stays beside them, or below. */
   gather(room: Exclude<Room, 'wide'>, before: Room = 'wide'): void {
     const api = this.api;
     if (!api || api.totalPanels === 0) return;
