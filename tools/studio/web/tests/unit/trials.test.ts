@@ -22,7 +22,7 @@ it('a trial belongs to the nearest start, however it is turned and rounded', () 
   expect(rowsOf([trial(1, true, [1.241, -0.459, 0]), trial(2, true, [1.259, -0.441, 0]), trial(3, true, [1.25, -0.45, 0])], at(1.25, 0))).toEqual(one(1.25));
 });
 
-it('starts at one place are told apart by their headings', () => {
+it('starts at one place differ by their headings', () => {
   const starts = [{ x: 1, y: 1, yaw: 0 }, { x: 1, y: 1, yaw: Math.PI }];
   expect(rowsOf([trial(1, true, [0.99, 1, -0.01]), trial(2, true, [1, 1.01, 0.01 - Math.PI])], starts)).toEqual([['start 1 (1, 1)', [1]], ['start 2 (1, 1)', [2]]]);
 });
