@@ -4,6 +4,7 @@
 #include <functional>
 #include <map>
 
+#include "core/formula/formula.h"
 #include "core/model/world_change.h"
 #include "tests/support/catch.h"
 #include "tests/support/paths.h"

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 
+#include "core/model/build.h"
+#include "core/model/lookup.h"
 #include "core/xml/rules.h"
+#include "core/xml/writer.h"
 #include "tests/support/model_text.h"
 
 using namespace forage;

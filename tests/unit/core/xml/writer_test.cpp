@@ -1,5 +1,7 @@
 #include "core/xml/writer.h"
 
+#include <filesystem>
+
 #include "core/model/build.h"
 #include "core/model/validate.h"
 #include "tests/support/catch.h"
@@ -275,7 +277,7 @@ TEST_CASE("The original's systems and processes are equal after writing and read
     const auto original = test::shared_dir() / "original";
     if (test::absent(original)) return;
     int files = 0;
-    for (const auto& entry : fs::recursive_directory_iterator(original)) {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(original)) {
         const auto path = entry.path();
         INFO(path);
         Diagnostics diagnostics;
