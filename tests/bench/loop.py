@@ -50,14 +50,22 @@ def test_of(source):
     return TESTS[max((place for place in TESTS if source.startswith(place)), key=len)]
 
 
+def run(*command):
+    """What a command prints. Ends the program, with that, when the command fails."""
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+    if done.returncode:
+        sys.exit(f"{done.stdout[-4000:]}\nloop: failed: {' '.join(map(str, command))}")
+    return done.stdout
+
+
 def seconds(build, source):
-    """The time of the whole loop. Raises CalledProcessError when the build or the test fails."""
+    """The time of the whole loop."""
     test = f"^{test_of(source)}$"
     os.utime(ROOT / source)
     begun = time.monotonic()
-    needed = subprocess.run([sys.executable, ROOT / "tests/support/needed_files.py", build, "-R", test], check=True, stdout=subprocess.PIPE, text=True)
-    subprocess.run(["ninja", "-C", build, *needed.stdout.split()], check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["ctest", "--test-dir", build, "-R", test, "--output-on-failure"], check=True, stdout=subprocess.DEVNULL)
+    needed = run(sys.executable, ROOT / "tests/support/needed_files.py", build, "-R", test)
+    run("ninja", "-C", build, *needed.split())
+    run("ctest", "--test-dir", build, "-R", test, "--output-on-failure")
     return time.monotonic() - begun
 
 
@@ -68,13 +76,8 @@ def main():
     parser.add_argument("files", nargs="*")
     options = parser.parse_args()
     build = options.build.resolve()
-    listed = subprocess.run(
-        ["git", "-C", ROOT, "ls-files", *(f"{place}/*.cpp" for place in ("core", "neurons", "synapses", "modules", "bug_interface", "tools"))],
-        check=True,
-        stdout=subprocess.PIPE,
-        text=True,
-    )
-    sources = options.files or listed.stdout.split()[:: options.every]
+    listed = run("git", "-C", ROOT, "ls-files", *(f"{place}/*.cpp" for place in ("core", "neurons", "synapses", "modules", "bug_interface", "tools")))
+    sources = options.files or listed.split()[:: options.every]
     for source in {test_of(source): source for source in sources}.values():
         seconds(build, source)  # builds what is missing
     found = {}
