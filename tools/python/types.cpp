@@ -10,9 +10,9 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "core/base/sequence.h"
-#include "core/plugin/trust.h"
 #include "tools/api/open/build_plugin.h"
 #include "tools/api/open/program_types.h"
+#include "tools/api/open/sources.h"
 #include "tools/python/held.h"
 #include "tools/python/values.h"
 
