@@ -221,6 +221,7 @@ export default async function({ site, start, open, faults, step }) {
   const arena = other.getByRole('group', { name: 'Arena' });
   for (const size of [...sizes, { width: 1280, height: 720 }]) {
     await other.setViewportSize(size);
+    await other.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))); // the panels have the new size
     await find(other, 'layout: overview');
     await arena.waitFor();
     await eventually(`a row at ${size.width}`, () => arena.locator('.bar').first().evaluate((e) => e.offsetHeight < 36 && e.scrollWidth <= e.clientWidth));
